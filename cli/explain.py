@@ -25,8 +25,9 @@ def explain(
     """Say which physics the believed model of CASE lacks, or that it lacks none, or that the data cannot tell.
 
     Fits the believed model, locates the missing effort, ranks effects of the catalogue, writes the amended model and
-    judges it on recordings that nothing was fitted to. Writes diagnosis.json, report.html and, where there is one, the
-    amended model; prints the verdict. After an interruption, the same call takes up the fits that were finished.
+    judges it on recordings that nothing was fitted to. Writes diagnosis.json, trace.json (why each hypothesis was given
+    up), report.html and, where there is one, the amended model; prints the verdict. After an interruption, the same
+    call takes up the fits that were finished.
     """
     with progress() as tell:
         found = lacuna.explain(case, libraries=library or [], out=out, limit=limit, progress=tell)

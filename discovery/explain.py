@@ -19,6 +19,7 @@ from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.time_limit import within
 from lacuna.discovery.naming.judge import judge_file
+from lacuna.discovery.naming.trace import traced
 from lacuna.discovery.steps import add_effort, add_findings, add_fit, add_location, add_scatter, opened
 from lacuna.written import write_whole
 
@@ -43,7 +44,7 @@ def explain(
     if not is_noise(result.base):
         add_location(result, progress)
         clock.done("locate")
-    with within(limit, begun):
+    with within(limit, begun), traced() as result.trace:
         add_findings(result, library, progress)
         add_scatter(result, progress)
     clock.done("name")

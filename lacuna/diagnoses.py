@@ -117,10 +117,11 @@ def explain(
     """Say which physics the believed model of `case` lacks, or that it lacks none, or that the data cannot tell.
 
     Fits the believed model, locates the missing effort, ranks effects of the catalogue, writes the amended model and
-    judges it on recordings that nothing was fitted to; writes diagnosis.json, report.html and, where there is one, the
-    amended model into `out` (default: out/explain/CASE). After `limit` seconds no search goes on, and what was found
-    stands. After an interruption the same call takes up the fits that were finished. Raises CaseError where model and
-    case do not fit, Diagnostic where the model is wrong. Needs the extra `explain`.
+    judges it on recordings that nothing was fitted to; writes diagnosis.json, trace.json (why each hypothesis was given
+    up), report.html and, where there is one, the amended model into `out` (default: out/explain/CASE). After `limit`
+    seconds no search goes on, and what was found stands. After an interruption the same call takes up the fits that
+    were finished. Raises CaseError where model and case do not fit, Diagnostic where the model is wrong. Needs the
+    extra `explain`.
     """
     return open_case(case, libraries=libraries).explain(out=out, limit=limit, progress=progress)
 
@@ -166,7 +167,8 @@ class Case:
             judge_written(found, amended)
         told = diagnosis.write(found, folder, amended)
         proposed = write_next(self._case, found.trial, folder)
-        return self._told(found, folder, amended, written=(told, *proposed[:1]), concluded=True)
+        traced = found.trace.write(folder)
+        return self._told(found, folder, amended, written=(told, traced, *proposed[:1]), concluded=True)
 
     @names_missing_packages
     def fit(self, *, out: str | Path | None = None, progress: Progress | None = None) -> Explanation:

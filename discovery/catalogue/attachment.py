@@ -48,6 +48,14 @@ class Attachment:
         signals = "".join(f", {n} from {v}" for n, v in self.signals)
         return f"{self.effect.identifier} at {self.location} ({self.effect.name}{extra}{signals})"
 
+    def said(self, point: Mapping[str, float]) -> str:
+        """The label; of a law the law with its numbers at a point, and its place."""
+        if self.law is None:
+            return self.label
+        prefix = self.full_name("")
+        values = {n.removeprefix(prefix): v for n, v in point.items() if n.startswith(prefix)}
+        return f"{self.law.expression(values)} at {self.location}"
+
     @property
     def alike(self) -> tuple[str, str]:
         """The name of what it is not told from, and the variable that never turns."""

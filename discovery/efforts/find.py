@@ -28,9 +28,10 @@ from lacuna.discovery.fit.lead import joined
 from lacuna.discovery.law.empirical_law import race, simplified, unfitted, varied
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.naming.candidate_fit import SMALL_STEP, nearest
-from lacuna.discovery.naming.comparison import TIE, score
+from lacuna.discovery.naming.comparison import TIE, note_laws, score
 from lacuna.discovery.naming.race import NEAR
 from lacuna.discovery.naming.screen import Candidate
+from lacuna.discovery.naming.trace import looking
 from lacuna.runtime import SimulationError
 
 TRIED = 3  # places at most at which laws are fitted, and laws of one group of terms there, and of two
@@ -86,6 +87,7 @@ def add_laws(
         if told and (enough or site.gain < WORTH * efforts[0].gain):
             break
         found.tried += 1
+        looking(f"a law at {site.location}")
         proposal, single = _law_at(case, amendment, base, found.locator, site, progress)
         _put(found.laws, proposal and proposal.candidate, base)
         _put(found.single, single, base)
@@ -171,10 +173,12 @@ def _law_at(
     that are not a level and one term, the best of one."""
     best: Proposal | None = None
     single: Proposal | None = None
+    begun: list[Candidate | None] = []
     for tried, guided in _offered(locator, site, progress):
         for proposal in tried:
             progress(f"fitting a law at {site.location}: {proposal.law.text()}")
             proposal.candidate = _begun(case, amendment, base, proposal, guided.point)
+        begun += [p.candidate for p in tried]
         race(case, base, [p.candidate for p in tried if p.candidate is not None], best and best.candidate)
         if best is None:
             _join(case, base, [p.candidate for p in tried if p.candidate is not None], guided)
@@ -188,6 +192,7 @@ def _law_at(
         single = best if best is None or len(best.law.groups) == 1 else single
         if best is not None and settled(best.candidate.fit):
             break
+    note_laws(begun, best and best.candidate, base)
     if best is None:
         return None, None
     apart = best is not single and _terms(best) > 1

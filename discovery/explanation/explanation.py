@@ -18,6 +18,7 @@ from lacuna.discovery.fit.lead import Lead
 from lacuna.discovery.law.locate import Located, PlaceEffort
 from lacuna.discovery.naming.judge import Judgement
 from lacuna.discovery.naming.name import Finding, Naming
+from lacuna.discovery.naming.trace import Trace
 
 
 @dataclass
@@ -48,6 +49,7 @@ class Explanation:
     instead: tuple[str, ...] = ()  # parameters that would be outside belief without the sensor's error that was found
     lead: Lead = field(default_factory=Lead)  # of fits of this model
     scatter: dict[str, float] = field(default_factory=dict)  # of each parameter, from dip to dip on rough ground
+    trace: Trace = field(default_factory=Trace)  # what left the search, and why
     _errors: dict[str, float] | None = None
 
     def rejudge(self, after: Judgement) -> None:

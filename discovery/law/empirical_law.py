@@ -25,9 +25,10 @@ from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.law.law import Law, attach, component_of, own_values
 from lacuna.discovery.law.law_screen import Effort, Proposal, screened, sites
 from lacuna.discovery.law.law_terms import DRY, Group, Shape, Variable, exponent, stribeck
-from lacuna.discovery.naming.comparison import best_correlation, score
+from lacuna.discovery.naming.comparison import best_correlation, note_laws, score
 from lacuna.discovery.naming.race import ROUNDS, run_round, still_in
 from lacuna.discovery.naming.screen import Candidate
+from lacuna.discovery.naming.trace import left, looking
 
 GROUPS = 3  # that a law may be the sum of
 FITTED = 4  # groups that are fitted in each round
@@ -43,6 +44,7 @@ def find(
 
     Its fit is in the candidate.
     """
+    looking("an empirical law at a shaft or in a line")
     best: Proposal | None = None
     efforts = [Effort(case, base, site) for site in sites(case, base)]
     while best is None or (len(best.law.groups) < most and not is_noise(best.candidate.fit)):
@@ -59,6 +61,7 @@ def find(
         before = 0.0 if best is None else score(best.candidate, base, correlation)
         after = score(chosen.candidate, base, correlation)
         progress(f"law at {chosen.law.site.location}: {chosen.law.text()}: {after:.1f}")
+        note_laws([p.candidate for p in proposals[:FITTED] if p is not chosen], chosen.candidate, base)
         if after > before - 2 * np.log(len(proposals)):  # ln of the squared number of terms that were looked at
             break
         best = chosen
@@ -86,8 +89,10 @@ def unfitted(
 ) -> Candidate | None:  # fmt: skip
     """The law as a component of the amended model, where its fit begins; None where there is no such model."""
     attachment = attach(law)
-    machine, _ = try_machine(case, replace(amendment, attachments=[*amendment.attachments, attachment]), base.machine)
+    machine, why = try_machine(case, replace(amendment, attachments=[*amendment.attachments, attachment]), base.machine)
     first = (believed or base.point) | {attachment.full_name(n): v for n, v in start.items()}
+    if machine is None:
+        left(attachment.said(first), "model", why)
     free, held = free_of(law, attachment, start), held_of(law, attachment, start)
     return None if machine is None else Candidate(attachment, machine, free, held, first, pick=law.pick())
 

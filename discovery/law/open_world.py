@@ -26,14 +26,17 @@ from lacuna.discovery.naming.comparison import (
     Ranked,
     confidences,
     left_out_deviance,
+    note_losers,
     price,
+    said,
     score,
     told_by_data,
 )
 from lacuna.discovery.naming.judge import try_judge
 from lacuna.discovery.naming.name import Finding, Naming
 from lacuna.discovery.naming.screen import Candidate
-from lacuna.discovery.naming.search import Search
+from lacuna.discovery.naming.search import UNTOLD, Search
+from lacuna.discovery.naming.trace import left
 from lacuna.runtime import SimulationError
 
 Progress = Callable[[str], None]
@@ -153,17 +156,21 @@ def _take(search: Search, unbegun: Search, found: Found, progress: Progress) -> 
     ranked = [Ranked(c, c.fit, score(c, base, correlation)) for c in _one_a_place(found.laws)]
     gain = ranked[0].score
     if max(gain, told_by_data(law, base, correlation)) > -MIN_GAIN:
+        left(said(law), "comparison", "parameters beyond what is believed of them could say as much", cost=gain)
         return False
     if search.findings and not _better(search, unbegun, law, gain, correlation):
         _tie(search, ranked[0], gain - _score_of(search, unbegun, correlation), found)
+        left(said(law), "comparison", "not clearly better than what was found in the catalogue", cost=gain)
         return False
     progress("what the law says of recordings left out")
     if not _tells(unbegun, ranked[0], correlation):
+        left(said(law), "unseen", UNTOLD, cost=gain)
         return False
     after = try_judge(law.machine, law.fit.point)
     if after is None:
         return False
     confidences(ranked)
+    note_losers(ranked)
     search.findings[:] = [Finding(ranked[0], Naming(ranked, []), unbegun.judgement, after)]
     search.take([law.attachment], law.fit, after)
     search.reason = ""

@@ -12,6 +12,7 @@ from lacuna.discovery.fit.evidence import nearly_noise
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.naming.left_out import left_out_residuals
 from lacuna.discovery.naming.screen import Candidate
+from lacuna.discovery.naming.trace import left
 
 MIN_GAIN = 20.0  # drop of the deviance, prices paid, below which nothing is believed missing
 CLOSE = 0.3  # share of the best gain within which hypotheses are cross-validated against each other
@@ -120,6 +121,29 @@ def told_by_data(candidate: Candidate, base: Fit, correlation: dict[str, float])
     is an answer without new physics."""
     pull, before = (fit.estimate.cost - fit.estimate.data_cost for fit in (candidate.fit, base))
     return score(candidate, base, correlation) - (pull - before)
+
+
+def note_losers(ranked: list[Ranked]) -> None:
+    """Trace those that are not the best."""
+    for r in ranked[1:]:
+        why = f"{r.score - ranked[0].score:.1f} behind {said(ranked[0].candidate)}"
+        left(said(r.candidate), "comparison", why, cost=r.score)
+
+
+def note_laws(laws: list[Candidate | None], best: Candidate | None, base: Fit) -> None:
+    """Trace the laws that are not the best of those that were fitted side by side."""
+    others = [law for law in laws if law is not None and law is not best]
+    for law in (law for law in others if law.fit is None or best is None):
+        left(said(law), "race", "no run from where it starts")
+    fitted = [law for law in others if law.fit is not None]
+    if best is not None and fitted:
+        correlation = best_correlation([best, *fitted])
+        note_losers([Ranked(law, law.fit, score(law, base, correlation)) for law in (best, *fitted)])
+
+
+def said(candidate: Candidate) -> str:
+    """A hypothesis in a line, a law with its numbers, where it was fitted to or where it starts."""
+    return candidate.attachment.said(candidate.fit.point if candidate.fit is not None else candidate.start)
 
 
 def confidences(ranked: list[Ranked]) -> None:

@@ -26,6 +26,7 @@ from lacuna.discovery.naming.comparison import (
     best_correlation,
     confidences,
     cross_validated,
+    note_losers,
     score,
 )
 from lacuna.discovery.naming.judge import Judgement
@@ -47,6 +48,7 @@ from lacuna.discovery.naming.race import (
 )
 from lacuna.discovery.naming.restarts import begin_again
 from lacuna.discovery.naming.screen import Candidate, Screen, prepare, telling_recordings
+from lacuna.discovery.naming.trace import left, note_screened
 from lacuna.runtime import SimulationError
 
 AS_LIKELY = 0.5  # of a finding's confidence, that rivals at other places have together where the data cannot tell
@@ -114,28 +116,29 @@ def screen_all(
 ) -> tuple[list[Candidate], list[tuple[str, str]]]:
     """Candidates (one for each start), most promising first; and the hypotheses that do not fit this model."""
     screen = Screen(base, telling_recordings(base), coarsely=True)
-    failures: list[tuple[str, str]] = []
     together = shared(case, amendment, attachments, base)
 
-    def one(attachment: Attachment) -> list[Candidate]:
+    def one(attachment: Attachment) -> tuple[list[Candidate], str]:
         check()
         machine, why = together.get(attachment.label), ""
         if machine is None:
             machine, why = own_machine(case, amendment, attachment, base)
         if machine is None:
-            failures.append((attachment.label, why))
-            return []
+            return [], why
         try:
             found = prepare(screen, attachment, machine)
         except SimulationError as error:
-            failures.append((attachment.label, str(error)))
-            return []
+            return [], str(error)
         progress(f"screened {attachment.label}: " + (f"{found[0].predicted:.1%}" if found else "no use"))
-        return [replace(c, machine=None) for c in found] if attachment.label in together else found
+        return [replace(c, machine=None) for c in found] if attachment.label in together else found, ""
 
     with ThreadPoolExecutor(WORKERS) as pool:
-        candidates = [c for found in pool.map(one, attachments) for c in found]
-    return sorted(candidates, key=lambda c: -c.predicted), failures
+        looked_at = list(zip(attachments, pool.map(one, attachments), strict=True))
+    failures = [(attachment.label, why) for attachment, (_, why) in looked_at if why]
+    for attachment, (found, why) in looked_at:
+        if why or not found:
+            left(attachment.label, "model" if why else "screen", why or "explains nothing that parameters could not")
+    return sorted((c for _, (found, _) in looked_at for c in found), key=lambda c: -c.predicted), failures
 
 
 def rank(
@@ -211,6 +214,10 @@ class Contest:
         if ranked:
             confidences(ranked)
         screened = [(c.attachment.label, c.predicted) for c in best_starts(self.candidates)]
+        note_screened(screened, [*self.fitted, *(label for label, _ in self.failures)])
+        note_losers(ranked)
+        for attachment in self.waiting:
+            left(attachment.label, "screen", "waits for a simpler law, which leaves noise")
         return Naming(ranked, screened, self.failures, correlation, [a.label for a in self.waiting])
 
     def _won(self) -> bool:
@@ -232,6 +239,8 @@ class Contest:
         _halve(self.case, self.base, [c for c in pool if c.machine is not None], self.fitted, self.progress)
         failed = [label for label in machines if label not in self.fitted]
         self.failures += [(label, "no simulation succeeded from its start values") for label in failed]
+        for label in failed:
+            left(label, "race", "no simulation succeeded from its start values")
 
     def _follow(self) -> None:
         """Fit what may do as well as the leaders, and what is related to the best."""

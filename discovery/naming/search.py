@@ -28,11 +28,13 @@ from lacuna.discovery.naming.judge import Judgement, try_judge
 from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Contest, Finding, Naming, compete, screen_all
 from lacuna.discovery.naming.screen import Candidate
+from lacuna.discovery.naming.trace import left, looking
 
 MAX_FINDINGS = 3  # more are beyond what a few recordings can tell apart
 CARRIED = 3  # times at most, that an accepted fit is begun again from where it stopped
 ALIKE = 0.01  # share of the best gain, within which rivals are released with the best one,
 RELEASED = 3  # at most so many of them
+UNTOLD = "fits better but does not tell recordings left out"
 RECONSIDERED = 4  # rivals of an earlier finding that are tried again
 
 
@@ -61,6 +63,7 @@ class Search:
             so_far = " and ".join(finding.ranked.attachment.label for finding in self.findings)
             known = f"; so far {so_far}" if so_far else ""
             progress(f"looking for missing physics, round {len(self.findings) + 1}{known}")
+            looking(f"missing physics, round {len(self.findings) + 1}{known}")
             if not self.add(progress):
                 self.exhausted = True
                 return
@@ -121,7 +124,7 @@ class Search:
         """Go on with a hypothesis if it pays on recordings left out, alone or with a second one."""
         if polished is None:
             return False
-        self.reason = _does_not_pay(ranked)
+        self.reason = f"{ranked.attachment.label} {UNTOLD}"
         after = try_judge(polished.machine, polished.point)
         if after is None:
             return False
@@ -129,6 +132,7 @@ class Search:
         ranked.fit = polished
         trial.take([*self.amendment.attachments, ranked.attachment], polished, after)
         if not self._better(trial) and not (trial._add_another(progress) and self._better(trial)):
+            left(ranked.attachment.label, "unseen", UNTOLD, cost=ranked.score)
             return False
         self.findings[:] = trial.findings
         self.take(trial.amendment.attachments, trial.fit, trial.judgement)
@@ -240,6 +244,11 @@ class Search:
         after = try_judge(polished.machine, polished.point)
         if after is not None and not self._tells_better_than(polished):
             progress(f"{best.attachment.label} instead of {finding.ranked.attachment.label}")
+            left(
+                finding.ranked.attachment.label,
+                "comparison",
+                f"{best.attachment.label} is better beside what was found",
+            )
             best.fit = polished
             self.findings[k] = replace(finding, ranked=best, naming=naming)
             self.take([*others, best.attachment], polished, after)
@@ -258,6 +267,7 @@ class Search:
             after = try_judge(found.machine, found.point)
             if after is not None and not self._tells_better_than(found):
                 progress(f"{finding.ranked.attachment.label} is not needed")
+                left(finding.ranked.attachment.said(self.fit.point), "needless", "the others do without it")
                 self.findings.remove(finding)
                 self.take(attachments, found, after)
 
@@ -289,7 +299,3 @@ class Search:
             if finding.ranked.attachment.contains(a) and a.label not in tried
         ]  # fmt: skip
         return result + screen_all(held.machine.case, amended, simpler, held, lambda text: None)[0]
-
-
-def _does_not_pay(ranked: Ranked) -> str:
-    return f"{ranked.attachment.label} fits better but does not tell recordings left out"

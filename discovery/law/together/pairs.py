@@ -21,7 +21,7 @@ from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.fit.evidence import LEFT, nearly_noise, pays
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.law.empirical_law import fitted_law, simplified, unmoved
-from lacuna.discovery.law.law import component_of
+from lacuna.discovery.law.law import attach, component_of
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.law.together.several import finding, paid
 from lacuna.discovery.naming.comparison import MIN_GAIN, price, score, told_by_data
@@ -29,7 +29,8 @@ from lacuna.discovery.naming.judge import try_judge
 from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Finding
 from lacuna.discovery.naming.screen import Candidate
-from lacuna.discovery.naming.search import Search
+from lacuna.discovery.naming.search import UNTOLD, Search
+from lacuna.discovery.naming.trace import left, looking
 from lacuna.runtime import SimulationError
 
 Progress = Callable[[str], None]
@@ -74,6 +75,10 @@ class Both:
     two: Proposal
     fit: Fit
 
+    def said(self) -> str:
+        """Both in a line, with their numbers."""
+        return " and ".join(attach(p.law).said(self.fit.point) for p in (self.one, self.two))
+
 
 def two_places(
     unbegun: Search, pair: tuple[Place, Place], single: Candidate | None, progress: Progress
@@ -81,6 +86,7 @@ def two_places(
     """A search that has found two laws at two places; None where they leave more than noise or do not pay. `single` is
     the best law at one place."""
     joining = Joining(unbegun, progress)
+    looking(f"laws at {pair[0].site.location} and {pair[1].site.location}")
     try:
         best = joining.laws(pair, single)
         best = joining.elsewhere(best, pair) if best is not None else None
@@ -95,8 +101,10 @@ def two_places(
     base, correlation = unbegun.fit, trial.fit.correlation()
     if paid(trial, base, correlation) > base.deviance(correlation) - MIN_GAIN:
         return None
-    told = pays(left_out(unbegun.case, base), left_out(unbegun.case, trial.fit), unbegun.floor)
-    return trial if told else None
+    if pays(left_out(unbegun.case, base), left_out(unbegun.case, trial.fit), unbegun.floor):
+        return trial
+    left(best.said(), "unseen", UNTOLD)
+    return None
 
 
 def is_short(finding: Finding) -> bool:
@@ -205,7 +213,10 @@ class Joining:
         if one is None or other is None:
             return one or other
         correlation = min(one.fit, other.fit, key=lambda f: f.deviance()).correlation()
-        return min((one, other), key=lambda both: self._paid(both, correlation))
+        best, lost = sorted((one, other), key=lambda both: self._paid(both, correlation))
+        behind = self._paid(lost, correlation) - self._paid(best, correlation)
+        left(lost.said(), "comparison", f"{behind:.1f} behind {best.said()}")
+        return best
 
     def _paid(self, both: Both, correlation: dict[str, float]) -> float:
         added = len(both.fit.estimate.free) - len(self.base.estimate.free)

@@ -23,12 +23,13 @@ from lacuna.discovery.law.empirical_law import simplified
 from lacuna.discovery.law.law import Law, own_values
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.naming.candidate_fit import without
-from lacuna.discovery.naming.comparison import MIN_GAIN, TIE, Ranked, price, score, told_by_data
+from lacuna.discovery.naming.comparison import MIN_GAIN, TIE, Ranked, price, said, score, told_by_data
 from lacuna.discovery.naming.judge import Judgement, try_judge
 from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Finding, Naming, compete, screen_all
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.naming.search import MAX_FINDINGS, Search
+from lacuna.discovery.naming.trace import left
 
 Progress = Callable[[str], None]
 
@@ -45,7 +46,10 @@ def go_on(search: Search, library: Library, progress: Progress) -> None:
             break
         add_laws(found, search.case, search.amendment, search.fit, progress, free)
         law = found.laws[0] if found.laws else None
-        if law is None or not _pays(search, search.fit, law):
+        if law is None:
+            break
+        if not _pays(search, search.fit, law):
+            left(said(law), "unseen", "does not pay beside what was found")
             break
         after = try_judge(law.machine, law.fit.point)
         if after is None:
@@ -95,7 +99,10 @@ def simplify(search: Search, progress: Progress) -> None:
 def take_if_less(search: Search, trial: Search, base: Fit) -> bool:
     """Take what another search has found where deviance and prices, those of `base` being none, are less."""
     correlation = min(search.fit, trial.fit, key=lambda f: f.deviance()).correlation()
-    if paid(trial, base, correlation) >= paid(search, base, correlation):
+    if (behind := paid(trial, base, correlation) - paid(search, base, correlation)) >= 0:
+        for f in trial.findings:
+            law = f.ranked.attachment.said(trial.fit.point)
+            left(law, "comparison", f"with what was found beside it {behind:.1f} behind what was found before")
         return False
     search.findings[:] = trial.findings
     search.take(trial.amendment.attachments, trial.fit, trial.judgement)
