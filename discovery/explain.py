@@ -11,6 +11,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.catalogue.modifications import unsubscripted
+from lacuna.discovery.catalogue.trace import traced
 from lacuna.discovery.experiment.proposal import propose
 from lacuna.discovery.explanation.contenders import contenders
 from lacuna.discovery.explanation.explanation import Clock, Explanation
@@ -19,7 +20,6 @@ from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.time_limit import within
 from lacuna.discovery.naming.judge import judge_file
-from lacuna.discovery.naming.trace import traced
 from lacuna.discovery.steps import add_effort, add_findings, add_fit, add_location, add_scatter, opened
 from lacuna.written import write_whole
 

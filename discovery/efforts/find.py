@@ -16,6 +16,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.trace import looking
 from lacuna.discovery.efforts.instruments import colour_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.laws.screening import proposals
@@ -31,7 +32,6 @@ from lacuna.discovery.naming.candidate_fit import SMALL_STEP, nearest
 from lacuna.discovery.naming.comparison import TIE, note_laws, score
 from lacuna.discovery.naming.race import NEAR
 from lacuna.discovery.naming.screen import Candidate
-from lacuna.discovery.naming.trace import looking
 from lacuna.runtime import SimulationError
 
 TRIED = 3  # places at most at which laws are fitted, and laws of one group of terms there, and of two

@@ -10,6 +10,7 @@ import numpy as np
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.recordings_check import Problem
 from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.trace import Trace
 from lacuna.discovery.efforts.find import Found
 from lacuna.discovery.experiment.proposal import Proposal
 from lacuna.discovery.fit.fit import Fit
@@ -18,7 +19,6 @@ from lacuna.discovery.fit.lead import Lead
 from lacuna.discovery.law.locate import Located, PlaceEffort
 from lacuna.discovery.naming.judge import Judgement
 from lacuna.discovery.naming.name import Finding, Naming
-from lacuna.discovery.naming.trace import Trace
 
 
 @dataclass

@@ -17,6 +17,7 @@ import numpy as np
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.attachment import Attachment
+from lacuna.discovery.catalogue.trace import left, looking
 from lacuna.discovery.efforts.places import sites as places
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit, fit, linearised
@@ -28,7 +29,6 @@ from lacuna.discovery.law.law_terms import DRY, Group, Shape, Variable, exponent
 from lacuna.discovery.naming.comparison import best_correlation, note_laws, score
 from lacuna.discovery.naming.race import ROUNDS, run_round, still_in
 from lacuna.discovery.naming.screen import Candidate
-from lacuna.discovery.naming.trace import left, looking
 
 GROUPS = 3  # that a law may be the sum of
 FITTED = 4  # groups that are fitted in each round

@@ -13,6 +13,7 @@ import numpy as np
 
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
+from lacuna.discovery.catalogue.trace import left
 from lacuna.discovery.efforts.find import WORTH, Found, add_laws, alike_first, places_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.fit.evidence import FAR, like_noise, nearly_noise, within_instruments
@@ -36,7 +37,6 @@ from lacuna.discovery.naming.judge import try_judge
 from lacuna.discovery.naming.name import Finding, Naming
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.naming.search import UNTOLD, Search
-from lacuna.discovery.naming.trace import left
 from lacuna.runtime import SimulationError
 
 Progress = Callable[[str], None]

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from lacuna.discovery.catalogue.attachment import Attachment
+from lacuna.discovery.catalogue.trace import left
 from lacuna.discovery.fit.evidence import nearly_noise
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.naming.left_out import left_out_residuals
 from lacuna.discovery.naming.screen import Candidate
-from lacuna.discovery.naming.trace import left
 
 MIN_GAIN = 20.0  # drop of the deviance, prices paid, below which nothing is believed missing
 CLOSE = 0.3  # share of the best gain within which hypotheses are cross-validated against each other

@@ -14,6 +14,7 @@ from functools import partial
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.attachment import Attachment
+from lacuna.discovery.catalogue.trace import left, note_screened
 from lacuna.discovery.fit.evidence import is_noise, nearly_noise
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.least_squares import WORKERS
@@ -48,7 +49,6 @@ from lacuna.discovery.naming.race import (
 )
 from lacuna.discovery.naming.restarts import begin_again
 from lacuna.discovery.naming.screen import Candidate, Screen, prepare, telling_recordings
-from lacuna.discovery.naming.trace import left, note_screened
 from lacuna.runtime import SimulationError
 
 AS_LIKELY = 0.5  # of a finding's confidence, that rivals at other places have together where the data cannot tell

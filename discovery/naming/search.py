@@ -16,6 +16,7 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.catalogue import Effect
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
+from lacuna.discovery.catalogue.trace import left, looking
 from lacuna.discovery.efforts.instruments import only_instruments
 from lacuna.discovery.fit.evidence import astray, holds, nearly_noise, pays, settled
 from lacuna.discovery.fit.fit import Fit, carried
@@ -28,7 +29,6 @@ from lacuna.discovery.naming.judge import Judgement, try_judge
 from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Contest, Finding, Naming, compete, screen_all
 from lacuna.discovery.naming.screen import Candidate
-from lacuna.discovery.naming.trace import left, looking
 
 MAX_FINDINGS = 3  # more are beyond what a few recordings can tell apart
 CARRIED = 3  # times at most, that an accepted fit is begun again from where it stopped
@@ -62,8 +62,8 @@ class Search:
         while len(self.findings) < most and not self.exhausted and not self.settled():
             so_far = " and ".join(finding.ranked.attachment.label for finding in self.findings)
             known = f"; so far {so_far}" if so_far else ""
-            progress(f"looking for missing physics, round {len(self.findings) + 1}{known}")
-            looking(f"missing physics, round {len(self.findings) + 1}{known}")
+            looking(text := f"missing physics, round {len(self.findings) + 1}{known}")
+            progress(f"looking for {text}")
             if not self.add(progress):
                 self.exhausted = True
                 return
@@ -77,8 +77,7 @@ class Search:
             return False
         if settled(self.fit, rough=not self.lead.direct):
             return True
-        known = bool(self.findings) and self.lead.direct
-        return known and only_instruments(self.case, self.amendment, self.fit)
+        return bool(self.findings) and self.lead.direct and only_instruments(self.case, self.amendment, self.fit)
 
     def lost(self) -> bool:
         """Whether fits that nothing has led leave so much that the search has to begin anew."""

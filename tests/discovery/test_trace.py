@@ -11,6 +11,7 @@ from lacuna.discovery.catalogue import catalogue
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.catalogue.places import read
+from lacuna.discovery.catalogue.trace import Trace, left, looking, traced
 from lacuna.discovery.explain import explain
 from lacuna.discovery.fit.lead import fit_believed
 from lacuna.discovery.fit.machine import Machine
@@ -18,7 +19,6 @@ from lacuna.discovery.law.empirical_law import unfitted
 from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law_screen import sites
 from lacuna.discovery.law.law_terms import Group
-from lacuna.discovery.naming.trace import Trace, left, looking, traced
 
 from .conftest import BELIEVED, conceal
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from lacuna.discovery.catalogue.trace import left, looking
 from lacuna.discovery.efforts.find import TRIED, Found, alike, simplest
 from lacuna.discovery.efforts.instruments import NATS
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
@@ -30,7 +31,6 @@ from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Finding
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.naming.search import UNTOLD, Search
-from lacuna.discovery.naming.trace import left, looking
 from lacuna.runtime import SimulationError
 
 Progress = Callable[[str], None]

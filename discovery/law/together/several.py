@@ -14,6 +14,7 @@ import numpy as np
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
+from lacuna.discovery.catalogue.trace import left
 from lacuna.discovery.efforts.find import INDIFFERENT, add_laws, find, places_of, simplest
 from lacuna.discovery.efforts.located import Site
 from lacuna.discovery.fit.evidence import pays, within_instruments
@@ -29,7 +30,6 @@ from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Finding, Naming, compete, screen_all
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.naming.search import MAX_FINDINGS, Search
-from lacuna.discovery.naming.trace import left
 
 Progress = Callable[[str], None]
 

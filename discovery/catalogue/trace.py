@@ -1,6 +1,6 @@
 """What became of every hypothesis: while what was looked for, at which step, and why it left the search (trace.json).
 
-A search notes it with `left` where it happens, and with `looking` what it looks for; outside of `traced` nothing is kept.
+A search notes it with `left` where it happens, with `looking` what it looks for; outside of `traced` nothing is kept.
 """
 
 from __future__ import annotations
