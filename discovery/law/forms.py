@@ -3,7 +3,7 @@
 Units tell the domain (Paynter 1961: effort, flow and their integrals); sources of the forms: radiation Stefan 1879,
 natural convection Churchill and Chu 1975, dry friction Coulomb 1785 and Stribeck 1902, drag Newton 1687, leakage
 Hagen-Poiseuille and Torricelli, losses of pipes Darcy 1857, weirs Poleni 1717, diode Shockley 1949, saturation
-Langmuir 1918, relaxation Maxwell 1867.
+Langmuir 1918, presliding Dahl 1968, relaxation Maxwell 1867.
 
 A law that was picked among many has to pay for the pick: the length of its name in a two-part code (Rissanen 1978), in
 which known forms have short names.
@@ -62,6 +62,8 @@ FORMS = (
     Form("compliance", r"^swing\(X, ", FORCE, SPEED),
     Form("resonance", r"^swing\(X, ", ANY, ANY),
     Form("drive.delay", r"^\(X - (delay|onset)\(X, ", ANY, ANY),
+    Form("friction.presliding", r"^hysteresis\(X, ", FORCE, SPEED),
+    Form("hysteresis", r"^hysteresis\(X, ", ANY, ANY),
     Form("rate_limit", r"^bounded\(X, ", ANY, ANY),
     Form("motor.saturation", r"^\(X/\(1 \+ \S+Y\^2\) - X\)$", VOLTAGE, ("A/s",)),
     Form("motor.saturation", r"^\(1/\(1 \+ \S+X\^2\) - 1\)$", ("V.s/rad", "N.m/A", "H"), CURRENT),

@@ -201,12 +201,13 @@ def _source_at(law: Law, place: sites.Site) -> str:
 
 
 def _with_states(text: str) -> tuple[str, States]:
-    """A law's text with a variable in the place of each quantity that lags, is late or swings, and what these are."""
+    """A law's text with a variable in the place of each quantity that has a memory, and what these are."""
     text, lags = _named(text, r"\blag\(([^,]+), ([^,)]+)\)", "z")
     text, late = _named(text, r"\b(delay|onset)\(([^,]+), ([^,)]+), ([^,)]+)\)", "late")
     text, swings = _named(text, r"\bswing\(([^,]+), ([^,)]+), ([^,)]+)\)", "swing")
     text, bounds = _named(text, r"\bbounded\(([^,]+), ([^,)]+)\)", "beyond")
-    return text, States(lags, late, swings, bounds)
+    text, bristles = _named(text, r"\bhysteresis\(([^,]+), ([^,)]+)\)", "bent")
+    return text, States(lags, late, swings, bounds, bristles)
 
 
 def _named(text: str, pattern: str, name: str) -> tuple[str, list[tuple[str, ...]]]:

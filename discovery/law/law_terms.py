@@ -6,7 +6,8 @@ behind a first-order lag that begins at rest: a state of the law's own. `swing(x
 its own does to what moves at x, over that mass times w: the stretch of the spring, and its damper, of damping ratio z.
 `delay(x, late, apart)` is x as it was, kept in samples so far apart; before the start it was what it is there, or
 nothing: `onset(x, late, apart)`. `dry(x)` truly sticks: it has modes and events. `bounded(x, q)` is what keeps a rate x
-within q either way: what it would be beyond that without the effort; it has modes and events, too.
+within q either way: what it would be beyond that without the effort; it has modes and events, too. `hysteresis(y, t)` is
+the bend, up to one, of bristles that what moves at y drags along: they bend by 1/t of its way, less the more they are.
 """
 
 from __future__ import annotations
@@ -117,6 +118,7 @@ def evaluate(text: str, trajectory: Mapping[str, np.ndarray], sizes: Mapping[str
     names["lag"] = lambda values, tau: lagged(time, values, tau)
     names["bounded"] = lambda values, q: values - np.clip(values, -q, q)
     names["swing"] = lambda values, w, z: swinging(time, values, w, z)
+    names["hysteresis"] = lambda values, t: bent(time, values, t)
     names["delay"] = lambda values, late, apart: np.interp(time - late, time, values)
     names["onset"] = lambda values, late, apart: (
         np.interp(time - late, time, values) * np.clip((time - time[0] - late) / apart + 0.5, 0, 1)
@@ -143,6 +145,17 @@ def swinging(time: np.ndarray, values: np.ndarray, w: float, z: float) -> np.nda
     pole = w * complex(-z, np.sqrt(1 - z**2))
     residue = (2 * z * w**2 - w * (1 - 4 * z**2) * pole) / (2 * (pole + z * w))
     return -2 * z * values - 2 * np.real(residue / pole * lagged(time, values, -1 / pole))
+
+
+def bent(time: np.ndarray, values: np.ndarray, t: float) -> np.ndarray:
+    """(n,) of bristles that move with values (n,) and are straight at first: z' = (y - |y| z)/t (P. R. Dahl, AIAA
+    Journal 14, 1976, with exponent one), exact along a way that is straight in between."""
+    way = np.diff(time) * (values[1:] + values[:-1]) / 2 / t
+    state, result = 0.0, [0.0]
+    for keep, towards in zip(np.exp(-np.abs(way)).tolist(), np.sign(way).tolist(), strict=True):
+        state = towards + (state - towards) * keep
+        result.append(state)
+    return np.array(result)
 
 
 def groups(variables: list[Variable], duration: float) -> list[Group]:

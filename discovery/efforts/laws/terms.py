@@ -42,7 +42,7 @@ def groups(
         elif v.kind != "rate":
             result += _alone(v) if low < 0 < high else _of_one_sign(v, low > AWAY or high < -AWAY)
         own = [rate for rate in common if rate.local == v.rate]
-        result += [g for rate in own for g in _contacts(v, rate, low < 0 < high)]
+        result += [g for rate in own for g in (*_contacts(v, rate, low < 0 < high), *_hysteretic(v, rate, high - low))]
         result += [g for rate in common if rate.name == f"der({v.name})" for g in _humped(v, rate, low, high)]
         if v.kind == "state":
             result += _waves(v, high - low) + _turning(v, high - low) + _varying(v, interval, duration)
@@ -164,6 +164,15 @@ def _contacts(v: Variable, rate: Variable, both: bool) -> list[Group]:
     ]
     return result + [
         Group(texts, (Shape("q", "1", q, 0.01, 0.99, (), 0.25),)) for texts in pairs for q in (0.25, 0.5, 0.75)
+    ]
+
+
+def _hysteretic(v: Variable, rate: Variable, span: float) -> list[Group]:
+    """What depends on the way back and forth, and not on how fast it goes: bristles of a contact, ropes, rubber, seals;
+    bent over a third of the way down to a hundredth."""
+    times = [float(part * span * v.size / rate.size) for part in (0.3, 0.1, 0.03, 0.01)]
+    return [
+        Group((f"hysteresis({rate.scaled}, {{t}})",), (Shape("t", "s", t, t / 9, t * 9, (), 0.7 * t),)) for t in times
     ]
 
 

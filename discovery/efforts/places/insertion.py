@@ -13,6 +13,7 @@ Signal = tuple[str, str, str]  # name in the component, expression of the model,
 Lag = tuple[str, str, str]  # name of a state of the component, what it follows, its time constant
 Late = tuple[str, str, str, str, str]  # a variable, delay | onset, what arrives in it, how late, kept how far apart
 Swing = tuple[str, str, str, str]  # a variable, what it swings behind, its natural frequency and damping ratio
+Bristle = tuple[str, str, str]  # the bend of it, what drags it along, the time it takes to bend at one of that
 Bound = tuple[str, str, str]  # a variable, the rate that it holds, the limit of that
 
 KEPT = 128  # samples of what is late: the interpolation between them is off by less than a thousandth of a slow wave
@@ -26,11 +27,13 @@ class States:
     late: Sequence[Late] = ()
     swings: Sequence[Swing] = ()
     bounds: Sequence[Bound] = ()
+    bristles: Sequence[Bristle] = ()
     sticking: Sequence[str] = ()
 
     def declarations(self) -> list[str]:
         lines = [f'  Real {state} "{followed}, late";' for state, followed, _ in self.lags]
         lines += [f'  Real {n}, stretch_{n}, behind_{n} "What swings behind {x}";' for n, x, *_ in self.swings]
+        lines += [f'  Real {bend} "Bend of bristles along {along}";' for bend, along, _ in self.bristles]
         for n, rate, _ in self.bounds:
             lines.append(f'  Integer side_{n}(start=0, fixed=true) "1 at the upper limit of {rate}, -1 at the lower";')
             lines.append(f'  Real {n} "What {rate} would be beyond its limit";')
@@ -38,9 +41,10 @@ class States:
         return lines + [line for quantity in self.late for line in _kept(*quantity)]
 
     def beginning(self) -> list[str]:
-        """At rest with what they follow."""
+        """At rest with what they follow, bristles straight."""
         starts = [f"  {state} = {followed};" for state, followed, _ in self.lags]
         starts += [line for n, x, *_ in self.swings for line in (f"  stretch_{n} = 0;", f"  behind_{n} = {x};")]
+        starts += [f"  {bend} = 0;" for bend, *_ in self.bristles]
         lines = ["initial equation", *starts] if starts else []
         return lines + [line for quantity in self.late for line in _keeping(quantity[0], quantity[2])]
 
@@ -48,6 +52,7 @@ class States:
         lines = [line for quantity in self.late for line in _arrives(*quantity[:4])]
         lines += [f"  {time}*der({state}) = {followed} - {state};" for state, followed, time in self.lags]
         lines += [line for swing in self.swings for line in _swings(*swing)]
+        lines += [f"  {t}*der({bend}) = {y} - noEvent(abs({y}))*{bend};" for bend, y, t in self.bristles]
         lines += [line for bound in self.bounds for line in _holds(*bound)]
         return lines + [line for speed in self.sticking for line in _sticks(speed)]
 
