@@ -32,6 +32,7 @@ FORMS = {
     "overflow": "an overflow",
     "rate_limit": "a limit of the rate",
     "saturation": "a saturation",
+    "friction.presliding": "presliding friction",
 }
 HALF_WIDTH = 1.96  # standard deviations: half of a 95 % interval
 
