@@ -265,7 +265,8 @@ def _spans(measured: np.ndarray) -> list[int]:
 
 
 def _lag_of_changes(measured: np.ndarray, simulated: np.ndarray, span: int, reach: int = 400) -> tuple[int, float]:
-    """(samples by which `measured` is late, share of the squared difference that moving it takes away).
+    """(samples by which `measured` is late, share that moving it takes away of the squared difference from the
+    simulation on a scale of its own: what swings further than the model and dies out is not what came earlier).
 
     Changes over `span` samples are compared, not values: a wrong parameter lets an angle drift, which is no shift.
     """
@@ -274,10 +275,11 @@ def _lag_of_changes(measured: np.ndarray, simulated: np.ndarray, span: int, reac
     measured = filled(np.where(outlying, np.nan, measured))
     reach = min(reach, len(measured) // 4) // 2 * 2  # so that no shift is among those tried
     inner = slice(reach, len(measured) - reach)
-    base = float(np.sum((measured[inner] - simulated[inner]) ** 2))
+    here, there = measured[inner], simulated[inner]
+    base = float(here @ here - (here @ there) ** 2 / max(there @ there, 1e-300))
     lags = np.arange(-reach, reach + 1, 2)
     errors = np.array([np.sum((measured[inner.start + k : inner.stop + k] - simulated[inner]) ** 2) for k in lags])
-    good = np.flatnonzero(errors <= errors.min() + AS_GOOD * (base - errors.min()))
+    good = np.flatnonzero(errors <= errors.min() + AS_GOOD * max(base - errors.min(), 0.0))
     best = int(good[np.argmin(np.abs(lags[good]))])  # of a periodic signal, not a period later
     while (lower := max(best - 1, 0) + int(np.argmin(errors[max(best - 1, 0) : best + 2]))) != best:
         best = lower

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from lacuna.discovery.catalogue.attachment import Attachment
+from lacuna.discovery.catalogue.attachment import OWN, Attachment
 from lacuna.discovery.catalogue.modifications import entries, modified, wrapped
 from lacuna.discovery.catalogue.places import Line, Shaft, Structure
 from lacuna.discovery.efforts.places.copied import Added, copied
@@ -244,7 +244,7 @@ class _Writer:
 
     def _probes(self) -> None:
         for k, place in enumerate(self.amendment.probes):
-            name, effort = f"probe_{k + 1}", probe_name(k)
+            name, effort = f"{OWN}source_{k + 1}", probe_name(k)
             if isinstance(place, Shaft):
                 self.declarations.append(f"Lacuna.Components.Mechanics.TorqueSource {name};")
                 self.equations.append(f"connect({name}.flange, {place.flange});")
@@ -288,8 +288,8 @@ def _missing(k: int) -> str:
 
 
 def probe_name(k: int) -> str:
-    return f"probe_{k + 1}_effort"
+    return f"{OWN}effort_{k + 1}"
 
 
 def tracker_name(k: int) -> str:
-    return f"tracker_{k + 1}"
+    return f"{OWN}tracker_{k + 1}"

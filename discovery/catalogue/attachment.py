@@ -10,6 +10,8 @@ from lacuna.discovery.catalogue.catalogue import Effect
 from lacuna.discovery.catalogue.places import Device, Line, Part, Shaft
 from lacuna.discovery.efforts.places.sites import Site
 
+OWN = "lacuna_"  # before names of what simulates a hypothesis and no reader sees: a machine has none such
+
 
 class Empirical(Protocol):
     """What is asked of a law that no catalogue holds; `values` by its component's own names."""

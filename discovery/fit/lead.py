@@ -24,6 +24,7 @@ from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.case.thinning import MOST
 from lacuna.discovery.case.values import is_start, state_of
+from lacuna.discovery.catalogue.attachment import OWN
 from lacuna.discovery.fit.evidence import LEFT, is_noise, nearly_noise, outside_belief
 from lacuna.discovery.fit.fit import Fit, believed, falling_bandwidths, fit
 from lacuna.discovery.fit.machine import Machine
@@ -89,7 +90,7 @@ class Lead:
 
     def release(self, machine: Machine, case: Case, base: Fit, free: list[Free], held: Fit) -> Fit | None:
         """The fit to all of `case` by a machine of it, from where a fit that was held has ended."""
-        fixed = {n: v for n, v in held.fixed.items() if not n.startswith("tracker_")}
+        fixed = {n: v for n, v in held.fixed.items() if not n.startswith(OWN)}
         if self.bandwidths:
             ladder = self.bandwidths[self.held + 1 :]
             return fit(machine, case.fit, base.noise, free, fixed, start=held.point, bandwidths=ladder)

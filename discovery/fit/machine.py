@@ -18,6 +18,7 @@ from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.case.values import is_start, start_name, values_in
 from lacuna.discovery.catalogue.amend import Amendment, probe_name, tracker_name
+from lacuna.discovery.catalogue.attachment import OWN
 from lacuna.discovery.catalogue.searched import believed_aliases, write_source
 from lacuna.discovery.fit.tracking import Motion, recorded_column, recorded_motion
 from lacuna.recorded_units import same_unit
@@ -73,7 +74,7 @@ class Machine:
             for name in values:
                 self._check_parameter(table, name)
         inputs = self.model.inputs
-        own = [n for n in inputs if n.startswith(("tracker_", "probe_"))]
+        own = [n for n in inputs if n.startswith(OWN)]
         given = (*(s.variable for s in self.case.inputs), *self.amendment.inputs, *own)
         driven = {inputs[n].index for n in given}  # which aliases of an input share
         for name in (n for n, v in inputs.items() if v.index not in driven):
@@ -258,11 +259,14 @@ class Machine:
         return believed_aliases(self.amendment, self.case.search_path)
 
     def _start(self, name: str, value: float) -> dict[str, float]:
-        """A state's start value under the first of its names, whose sign may be another."""
+        """A state's start value under the first of its names, whose sign may be another; the amended model may have
+        another of the variables as its state that are one in the believed one."""
         variable, sense = self.model.states.get(name), 1
         if variable is None and name in self.model.variables:
-            known, sense = self._believed_aliases.get(name, (name, 1))
-            variable = self.model.states.get(known)
+            same = self._believed_aliases
+            known, own = same.get(name, (name, 1))
+            equal = [(known, own), *((n, own * sign) for n, (of, sign) in same.items() if of == known)]
+            variable, sense = next(((self.model.states[n], s) for n, s in equal if n in self.model.states), (None, 1))
         if variable is None:
             where = f"{self.case.folder / 'case.toml'}: [initial]"
             raise CaseError(f"{where} {name} is no state of {self.case.model}{suggestion(name, self.model.states)}")

@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from lacuna.codegen.units.inference import SECOND
+from lacuna.discovery.catalogue.attachment import OWN
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.places.sites import MOST
 from lacuna.discovery.law.law_terms import Variable
@@ -35,7 +36,7 @@ def variables(
     """
     units = {n: v.unit for n, v in known.items()}
     names = [n for n, v in along[0].values.items() if np.ndim(v) == 1 and (n in units or n.startswith("der("))]
-    names = [n for n in names if not n.startswith("probe") and (n not in answering or n.startswith("der("))]
+    names = [n for n in names if not n.startswith(OWN) and (n not in answering or n.startswith("der("))]
     names = [n for n in names if not added(n)]
     largest: dict[str, float] = {}
     for n in names:

@@ -104,8 +104,8 @@ def _terms(site: Site, variable: str, text: str, starts: list[int]) -> list[Chan
         begin = _at(part.span, starts)
         side, end = right_side(text, begin)
         if site.kind in ("parameter", "input"):
-            for at in occurrences(site.label, text, begin, end):
-                last = at + len(site.label)
+            for at in occurrences(site.local, text, begin, end):
+                last = at + len(site.local)
                 changes += [(at, False, "(", at), (last, False, f" + {variable})", last)]
         else:
             changes += [

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from lacuna.discovery.catalogue.attachment import Attachment
+from lacuna.discovery.catalogue.attachment import OWN, Attachment
 from lacuna.discovery.catalogue.catalogue import Effect, EffectParameter
 from lacuna.discovery.efforts.places.sites import Site
 
@@ -59,10 +59,11 @@ class States:
 
 def probe(site: Site, number: int) -> tuple[Attachment, str]:
     """(attachment, name of the model's input) of an input that acts as effort at a site."""
-    name = f"probe_site_{number}"
-    effect = Effect("unknown", f"Probe{number}", "Missing effort", "site", ())
+    own = f"{OWN}site_{number}"
+    effect = Effect("unknown", own.title(), "Missing effort", "site", ())
     source = component(site, effect.class_path, "Missing effort", (("u", "", ""),), [], "u")
-    return Attachment(effect, f"probe{number}", site.label, site=site, signals=(("u", name),), definition=source), name
+    name = f"{own}_effort"
+    return Attachment(effect, own, site.label, site=site, signals=(("u", name),), definition=source), name
 
 
 def component(

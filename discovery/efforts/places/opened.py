@@ -225,7 +225,7 @@ def opened(
     closed = list(found.closed)
     believed, _ = translate(str(write_source(amendment)), search_path=case.search_path)
     between = exchanges(found.places, lambda site: unit_of(site, believed))
-    vary = varying(found.places, _read(believed, _scalars(believed)))
+    vary = varying([*found.places, *found.inside], _read(believed, _scalars(believed)))
     told = [s.variable for s in case.inputs]
     acting = varying(found.places, _read(believed, told), "input")
     elsewhere = set(told) - {s.label for s in acting}

@@ -39,7 +39,8 @@ def read(library: Library, name: str) -> Sites:
     top = Instance(Context(library, Path(cls.span.file).resolve().parent, LOWERING), cls, "", None, None)
     reading = _Reading(top)
     reading.enter(top, ())
-    return _few(cls, [*reading.joined.sites(), *reading.found], dict.fromkeys(reading.closed))
+    found = _few(cls, [*reading.joined.sites(), *reading.found], dict.fromkeys(reading.closed))
+    return replace(found, inside=tuple(reading.library))
 
 
 class _Reading:
@@ -49,6 +50,7 @@ class _Reading:
         self.top = top
         self.found: list[Site] = []
         self.closed: list[tuple[str, str]] = []
+        self.library: list[Site] = []
         self.joined = Joined(top.cls)
         self.bases: dict[str, dict[ast.Class, Way]] = {}  # of each component on the way
 
@@ -83,6 +85,8 @@ class _Reading:
         if not _is_own(parts[0].cls, self.top.cls):
             if any(isinstance(i, ast.Connect) for section, _ in parts[0].sections for i in _flat(section.items)):
                 self.closed.append((child.name, LIBRARY))
+            if isinstance(child, Instance) and (named := self._named(node, name)) is not None:
+                self.library += _written_in(child, (*named[0], named[1]))
         elif (named := self._named(node, name)) is None or any(
             _as_written(p.cls) is not _as_written(named[1].cls) for p in parts
         ):
@@ -113,6 +117,19 @@ class _Reading:
         element, shape = (sum(of, ()) for of in ([s.element for s in between], [s.shape for s in between]))
         step = Step(cls, declaration.type.span, ".".join(component), element, shape)
         return (*above, *self.bases[owner][scope.cls]), step
+
+
+def _written_in(part: Instance, way: Way) -> list[Site]:
+    """The equations that stand in the text of a component's own class, none in a loop, of scalars."""
+    found = []
+    for section, owner in part.sections:
+        scope = Scope(part.context, owner, part)
+        items = _each(_equations(section), scope) if _as_written(owner) is _as_written(part.cls) else ()
+        for item, _, loops in items:
+            if isinstance(item, ast.Equality) and not loops and not isinstance(item.left, ast.Tuple):
+                label = f"{part.name}: {item.text}"
+                found.append(Site("equation", label, span=item.span, instance=part.name, way=way))
+    return found
 
 
 def _as_written(cls: ast.Class) -> ast.Class:

@@ -3,10 +3,10 @@
 A *node* is a set of connected ports: something may flow in. An *edge* is a connection: something may be lost across it.
 A *branch* goes past a component of two ports: something may flow beside it. An *equation* written in the class is a
 balance: a term may be missing. A *signal* goes from one component into another: it may arrive otherwise than it was
-sent. An *exchange* joins two such balances: what one of them gains the other one loses. A
-*parameter* may vary, in all equations in which it stands at once, and an *input* may act otherwise than it
-was commanded, wherever it is read. Ports are any connectors of one flow and one potential; which is which the
-declaration says. Nothing is known here of domains, classes or names.
+sent. An *exchange* joins two such balances: what one of them gains the other one loses. A *parameter* may vary, in all
+equations in which it stands at once (what makes a force of a motor's current and a voltage of its speed), and an
+*input* may act otherwise than it was commanded, wherever it is read. Ports are any connectors of one flow and one
+potential; which is which the declaration says. Nothing is known here of domains, classes or names.
 """
 
 from __future__ import annotations
@@ -113,16 +113,24 @@ class Site:
     def text(self) -> tuple:
         """What tells its text from others: all elements of an array of components share theirs."""
         way = tuple((step.span, step.component) for step in self.way)
-        return self.kind, self.span, self.term, self.ports, way, "" if self.instance else self.label
+        own = self.local if self.kind == "parameter" else "" if self.instance else self.label
+        return self.kind, self.span, self.term, self.ports, way, own
+
+    @property
+    def local(self) -> str:
+        """The label as its own class says it."""
+        return self.label.removeprefix(f"{self.instance}: ").removeprefix(f"{self.instance}.")
 
 
 @dataclass(frozen=True)
 class Sites:
-    """The places of a class that are open, and what is not and why."""
+    """The places of a class that are open, and what is not and why; `inside` are equations of components whose classes
+    are of a library, open to what varies in several of them."""
 
     cls: ast.Class
     places: tuple[Site, ...]
     closed: tuple[tuple[str, str], ...]
+    inside: tuple[Site, ...] = ()
 
 
 def exchanges(places: Iterable[Site], unit: Callable[[Site], str]) -> list[Site]:
@@ -139,13 +147,22 @@ def exchanges(places: Iterable[Site], unit: Callable[[Site], str]) -> list[Site]
 
 
 def varying(places: Iterable[Site], names: Mapping[str, int], kind: str = "parameter") -> list[Site]:
-    """Parameters, or inputs, that stand in equations which are all open; `names` says in how many."""
-    equations = [site for site in places if site.kind == "equation" and not site.instance and site.term == "@"]
-    found = [(name, [e for e in equations if re.search(_alone(name), e.label)]) for name in names]
-    return [
-        Site(kind, name, parts=tuple(parts), way=parts[0].way) for name, parts in found
-        if 1 <= len(parts) == names[name] and len({e.way for e in parts}) == 1
-    ]  # fmt: skip
+    """Parameters, or inputs, that stand in equations which are all open; `names` says in how many. Those of components
+    only where there are several: what varies in one is a term of it."""
+    equations = [site for site in places if site.kind == "equation" and site.term == "@"]
+    found = []
+    for name in names:
+        owners = {"", name.rpartition(".")[0]}
+        parts = [e for e in equations if e.instance in owners and re.search(_alone(_seen_in(name, e)), e.local)]
+        least = 2 if any(e.instance for e in parts) else 1
+        if least <= len(parts) == names[name] and len({(e.instance, e.way) for e in parts}) == 1:
+            found.append(Site(kind, name, parts=tuple(parts), instance=parts[0].instance, way=parts[0].way))
+    return found
+
+
+def _seen_in(name: str, equation: Site) -> str:
+    """What a variable is called in the class of an equation."""
+    return name.removeprefix(f"{equation.instance}.") if equation.instance else name
 
 
 def _alone(name: str) -> str:
