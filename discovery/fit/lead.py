@@ -238,7 +238,8 @@ def joined(
 
 def _growth(found: Fit) -> float:
     """Logarithm of what an error of a state at the start of a piece grows by, from its first quarter to its last, in
-    the outputs: of the state for which that is most, the median of the pieces."""
+    the outputs: of the state for which that is most, the median of the pieces. Where all of its range moves no output
+    by its noise (an angle that nothing depends on), what grows is rounding."""
     grown: dict[str, list[float]] = {}
     for name, columns in found.sensitivities().items():
         for column, recording in zip(columns, found.residuals, strict=True):
@@ -246,6 +247,8 @@ def _growth(found: Fit) -> float:
                 continue
             rows = len(next(iter(found.residuals[recording].values())))
             size = np.abs(column).reshape(-1, rows).max(axis=0)
+            if size.max() < 1.0:
+                continue
             first, last = size[: rows // JOINED].max(), size[-(rows // JOINED) :].max()
             grown.setdefault(state_of(name), []).append(np.log(max(last, 1e-300) / max(first, 1e-300)))
     return max((float(np.median(g)) for g in grown.values()), default=0.0)

@@ -10,6 +10,7 @@ import numpy as np
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.places import Device, Line, Shaft
 from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.time_limit import check
 from lacuna.discovery.law.law import Law, Site, component_of
 from lacuna.discovery.law.law_terms import Group, Variable, groups
 from lacuna.discovery.law.response import linear, respond
@@ -75,6 +76,7 @@ def screened(case: Case, here: Fit, law: Law | None, efforts: list[Effort], prog
             continue
         known = law.groups if law else ()
         for group in groups(list(effort.site.variables), duration):
+            check()
             progress(f"screening terms at {effort.site.location}")
             columns = effort.columns(group, screen.weights)
             share, coefficients = screen.explained(columns)
@@ -141,19 +143,23 @@ class Effort:
 
 
 def _parts(screen: Screen) -> list[np.ndarray]:
-    """Rows of the residual in parts that are left out in turn: recordings, or thirds of a single one."""
-    signals = len(screen.noise)
-    lengths = [len(r.time) for r in screen.recordings]
-    label = []
-    for n, length in enumerate(lengths):
-        one = np.full(length, n) if len(lengths) > 1 else np.arange(length) * 3 // length
-        label.append(np.tile(one, signals))
+    """Rows of the residual in parts that are left out in turn: recordings, whole if they are in pieces, or thirds of a
+    single one."""
+    files = list(dict.fromkeys(r.file for r in screen.recordings))
+    rows = sum(len(r.time) for r in screen.recordings)
+    label, before = [], 0
+    for recording in screen.recordings:
+        count = len(recording.time)
+        one = np.full(count, files.index(recording.file)) if len(files) > 1 else (before + np.arange(count)) * 3 // rows
+        label.append(np.tile(one, len(screen.noise)))
+        before += count
     labels = np.concatenate(label)
     return [labels == k for k in np.unique(labels)]
 
 
 def _held_out(screen: Screen, columns: list[np.ndarray], parts: list[np.ndarray]) -> float:
     """Share of the misfit explained in parts that neither parameters nor coefficients are fitted to."""
+    check()
     rows = len(screen.residual)
     base = screen.jacobian[:rows]
     pulls = screen.jacobian[rows:]

@@ -94,11 +94,14 @@ class Shape:
 @dataclass(frozen=True)
 class Group:
     """Terms that come together, one coefficient each, such as the sine and the cosine of one order; those of a group
-    that is `held` stay where they start, as nothing tells them or nothing is to be told."""
+    that is `held` stay where they start, as nothing tells them or nothing is to be told. Along a run that an effort
+    leads, a rate that it changes has the effort's own error in it: what is `seen` there in the place of the texts has
+    the rate without the effort."""
 
     texts: tuple[str, ...]
     shapes: tuple[Shape, ...] = ()
     held: bool = False
+    seen: tuple[str, ...] = ()
 
     @property
     def kind(self) -> tuple[str, ...]:
@@ -108,7 +111,7 @@ class Group:
     def values(self, trajectory: Mapping[str, np.ndarray], sizes: Mapping[str, float]) -> list[np.ndarray]:
         """Each term (n,) along a trajectory (local names and `time`) with its shapes at their starts."""
         return [evaluate(text.format(**{s.name: s.start for s in self.shapes}), trajectory, sizes)
-                for text in self.texts]  # fmt: skip
+                for text in self.seen or self.texts]  # fmt: skip
 
 
 def evaluate(text: str, trajectory: Mapping[str, np.ndarray], sizes: Mapping[str, float]) -> np.ndarray:

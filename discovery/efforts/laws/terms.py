@@ -43,7 +43,8 @@ def groups(
             result += _alone(v) if low < 0 < high else _of_one_sign(v, low > AWAY or high < -AWAY)
         own = [rate for rate in common if rate.local == v.rate]
         result += [g for rate in own for g in (*_contacts(v, rate, low < 0 < high), *_hysteretic(v, rate, high - low))]
-        result += [g for rate in common if rate.name == f"der({v.name})" for g in _humped(v, rate, low, high)]
+        free = next((w for w in found if w.kind == "unheld" and w.name == f"der({v.name})"), None)
+        result += [g for rate in common if rate.name == f"der({v.name})" for g in _humped(v, rate, free, low, high)]
         if v.kind == "state":
             result += _waves(v, high - low) + _turning(v, high - low) + _varying(v, interval, duration)
     plain = [v for v in common if v.kind not in ("apart", "above")]
@@ -176,17 +177,19 @@ def _hysteretic(v: Variable, rate: Variable, span: float) -> list[Group]:
     ]
 
 
-def _humped(v: Variable, rate: Variable, low: float, high: float) -> list[Group]:
+def _humped(v: Variable, rate: Variable, free: Variable | None, low: float, high: float) -> list[Group]:
     """A storage that takes more around a level: what melts, boils or is bound there; a quarter of the range wide, down
-    to a sixteenth."""
+    to a sixteenth. As much as is believed to be stored, or tens of times that, which the `free` rate shows."""
     found = []
+    hump = f"exp(-(({v.scaled} - {{m}})/{{d}})^2)"
+    slowed = [f"{free.size / rate.size:.6g}*{free.scaled}*{hump}/(1 + {q}*{hump})" for q in (1, 5, 25)] if free else []
     for width in (high - low) / np.array([4.0, 8.0, 16.0]):
         for level in np.arange(low, high, width):
             shapes = (
                 Shape("m", "1", float(level), low, high, (), float(width)),
                 Shape("d", "1", float(width), float(width) / 9, float(width) * 9),
             )
-            found.append(Group((f"{rate.scaled}*exp(-(({v.scaled} - {{m}})/{{d}})^2)",), shapes))
+            found += [Group((f"{rate.scaled}*{hump}",), shapes, seen=seen) for seen in ((), *((s,) for s in slowed))]
     return found
 
 
