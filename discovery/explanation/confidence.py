@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from lacuna.discovery.explanation.explanation import Explanation
-from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.evidence import excess
 from lacuna.discovery.naming.comparison import TEMPER
 from lacuna.discovery.naming.name import Finding
 
@@ -45,18 +45,8 @@ def explained(result: Explanation) -> float:
     """Share of the misfit above noise, on the recordings fitted, that the findings take away."""
     if result.instead:  # nothing is above noise, without it either: it is parameters that it puts back
         return 1.0
-    before, after = _excess(result.base), _excess(result.final)
+    before, after = excess(result.base), excess(result.final)
     return float(np.clip(1.0 - after / before, 0.0, 1.0)) if before > 0 else 1.0
-
-
-def _excess(fit: Fit) -> float:
-    """Square sum of the residuals in units of noise, less that of noise."""
-    total = 0.0
-    for name, residuals in fit.residuals.items():
-        for column, noise in fit.noise.items():
-            weight = fit.weights[name][column]
-            total += float(np.sum((np.nan_to_num(residuals[column]) * weight / noise.std) ** 2) - np.sum(weight**2))
-    return total
 
 
 def tie(finding: Finding) -> list[dict[str, str]]:

@@ -68,6 +68,16 @@ def _blocks(fit: Fit, column: str, block: int, slack: float = 0.0) -> Whiteness:
     return Whiteness(column, block, total / count, limit)
 
 
+def excess(fit: Fit) -> float:
+    """Square sum of the residuals in units of noise, less that of noise."""
+    total = 0.0
+    for name, residuals in fit.residuals.items():
+        for column, noise in fit.noise.items():
+            weight = fit.weights[name][column]
+            total += float(np.sum((np.nan_to_num(residuals[column]) * weight / noise.std) ** 2) - np.sum(weight**2))
+    return total
+
+
 def is_noise(fit: Fit) -> bool:
     """Whether nothing is left in any signal but noise."""
     return all(w.passed for w in whiteness(fit).values())

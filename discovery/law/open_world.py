@@ -16,7 +16,7 @@ from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.catalogue.trace import left
 from lacuna.discovery.efforts.find import WORTH, Found, add_laws, alike_first, places_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
-from lacuna.discovery.fit.evidence import FAR, like_noise, nearly_noise, within_instruments
+from lacuna.discovery.fit.evidence import FAR, excess, like_noise, nearly_noise, within_instruments
 from lacuna.discovery.law.beyond import margin
 from lacuna.discovery.law.together.pairs import Place, is_family, is_short, paired, two_places
 from lacuna.discovery.law.together.several import among_sensors, apart, go_on, simplify, take_if_less
@@ -35,6 +35,7 @@ from lacuna.discovery.naming.comparison import (
 )
 from lacuna.discovery.naming.judge import try_judge
 from lacuna.discovery.naming.name import Finding, Naming
+from lacuna.discovery.naming.race import HALF
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.naming.search import UNTOLD, Search
 from lacuna.runtime import SimulationError
@@ -191,12 +192,13 @@ def _tie(search: Search, law: Ranked, more: float, found: Found) -> None:
 
 def _better(search: Search, unbegun: Search, law: Candidate, gain: float, correlation: dict[str, float]) -> bool:
     """Whether a law takes the place of findings: of effects in the equations, which have a name and a reason, only
-    where it leaves noise and the evidence is clearly for it, or a short one for several; of sensors where it is better.
-    """
+    where it leaves noise, or they leave most of the misfit beside it, and the evidence is clearly for it, or a short
+    one for several; of sensors where it is better."""
     before = _score_of(search, unbegun, correlation)
     if all(f.ranked.attachment.variable for f in search.findings):
         return gain < before - TIE
-    return gain < before - margin(search, law) and (nearly_noise(law.fit) or like_noise(law.fit))
+    quiet = nearly_noise(law.fit) or like_noise(law.fit) or excess(law.fit) < HALF * excess(search.fit)
+    return gain < before - margin(search, law) and quiet
 
 
 def _one_a_place(laws: list[Candidate]) -> list[Candidate]:

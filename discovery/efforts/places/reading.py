@@ -22,7 +22,7 @@ from lacuna.codegen.library.search_path import MODEL_FOLDER, outermost
 from lacuna.codegen.symbolic.expr import Expr, walk
 from lacuna.codegen.syntax import ast
 from lacuna.discovery.efforts.places.joined import Joined
-from lacuna.discovery.efforts.places.sites import MOST, Site, Sites, Step
+from lacuna.discovery.efforts.places.sites import MOST, Site, Sites, Step, occurrences
 
 ALGORITHM = "it is a statement of an algorithm that other statements follow"
 DEFINITION = "it only says that one variable is the rate of another"
@@ -39,8 +39,8 @@ def read(library: Library, name: str) -> Sites:
     top = Instance(Context(library, Path(cls.span.file).resolve().parent, LOWERING), cls, "", None, None)
     reading = _Reading(top)
     reading.enter(top, ())
-    found = _few(cls, [*reading.joined.sites(), *reading.found], dict.fromkeys(reading.closed))
-    return replace(found, inside=tuple(reading.library))
+    every = [*reading.joined.sites(), *reading.found, *reading.laws]
+    return replace(_few(cls, every, dict.fromkeys(reading.closed)), inside=tuple(reading.library))
 
 
 class _Reading:
@@ -51,6 +51,7 @@ class _Reading:
         self.found: list[Site] = []
         self.closed: list[tuple[str, str]] = []
         self.library: list[Site] = []
+        self.laws: list[Site] = []  # of those, where a parameter stands: what such a component is to the machine
         self.joined = Joined(top.cls)
         self.bases: dict[str, dict[ast.Class, Way]] = {}  # of each component on the way
 
@@ -86,7 +87,10 @@ class _Reading:
             if any(isinstance(i, ast.Connect) for section, _ in parts[0].sections for i in _flat(section.items)):
                 self.closed.append((child.name, LIBRARY))
             if isinstance(child, Instance) and (named := self._named(node, name)) is not None:
-                self.library += _written_in(child, (*named[0], named[1]))
+                written_there = _written_in(child, (*named[0], named[1]))
+                own = [n for n, e in child.elements.items() if e.declaration.variability == "parameter"]
+                self.laws += [s for s in written_there if any(occurrences(n, s.local, 0, len(s.local)) for n in own)]
+                self.library += [s for s in written_there if s not in self.laws]
         elif (named := self._named(node, name)) is None or any(
             _as_written(p.cls) is not _as_written(named[1].cls) for p in parts
         ):
