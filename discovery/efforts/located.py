@@ -66,7 +66,7 @@ class Locator:
         self.sigma = np.array([f.sigma or f.scale for f in self.free])
         self.sums: dict[int, tuple[int, ...]] = {}  # columns in which one course acts at all places of a family
         pieces = [self.piece(self.point, r) for r in case.fit]
-        self.places = opened.places(pieces[0].along)
+        self.places = opened.places([p.along for p in pieces])
         families = [p.columns for p in self.places if p.as_one]
         self.sums = dict(enumerate(families, pieces[0].along.drive.shape[2]))
         self.pieces = [replace(p, along=p.along.with_sums(families)) for p in pieces]

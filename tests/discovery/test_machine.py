@@ -11,6 +11,7 @@ import pytest
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.case.noise import Noise
+from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.case.values import is_start
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
@@ -79,7 +80,7 @@ def test_a_start_recorded_by_another_name_of_its_state(tmp_path: Path) -> None:
     door = opened(case, known.amendment, case.library(), ["k"])
     assert any(s.label.startswith("level = upper") for s in door.sites)
     point, first = {"A": 0.01, "B": 0.02, "k": 3e-4}, case.fit[0]
-    tried = [s.label for place in door.places(door.linear.along(point, first)) for s in place.sites]
+    tried = [s.label for place in door.places([door.linear.along(point, first)]) for s in place.sites]
     assert "level = upper" not in tried and dict(door.closed)["level = upper"] == RENAMES  # nothing else reads it
     run = door.machine.trajectory(point, first, ["upper", "level"])
     assert run["upper"][0] == run["level"][0] == first.columns["upper"][0]
@@ -126,3 +127,42 @@ def test_a_first_speed_of_what_a_component_measures_the_other_way(tmp_path: Path
     machine = Machine(case, Amendment(read(case.library(), case.base)))
     assert "w" not in machine.model.states
     assert machine.simulate({}, case.fit[0])["w"] == pytest.approx(15 * np.exp(-2 * time), abs=1e-4)
+
+
+PROBED = """model Probed "Its components are called as ours might be"
+  model Part
+    parameter Real tau(unit="s") = 0.5;
+    input Real u(unit="V");
+    Real y(unit="V", start=0, fixed=true);
+  equation
+    tau*der(y) = u - y;
+  end Part;
+  input Real u(unit="V");
+  input Real probe_u(unit="V");
+  Part probe1(u=u + probe_u), probe2(u=probe1.y);
+end Probed;
+"""
+
+
+def test_what_is_added_has_no_name_of_a_machine(tmp_path: Path) -> None:
+    (tmp_path / "Probed.mo").write_text(PROBED)
+    time = np.linspace(0, 2, 101)
+    for name in ("r1", "r2"):
+        np.savetxt(tmp_path / f"{name}.csv", np.column_stack([time, time, time, time]), "%.8g", ",",
+                   header="time,u,v,y", comments="")  # fmt: skip
+    recorded = '[signals.v]\nrole = "input"\nvariable = "probe_u"\nunit = "V"\n'
+    text = (
+        'model = "Probed.mo"\n[signals.u]\nrole = "input"\nvariable = "u"\nunit = "V"\n'
+        '[signals.y]\nrole = "output"\nvariable = "probe2.y"\nunit = "V"\nnoise_std = 0.01\n'
+        '[recordings]\nfit = ["r1.csv"]\nvalidate = ["r2.csv"]\n'
+    )
+    (tmp_path / "case.toml").write_text(text)
+    case = load(tmp_path)
+    with pytest.raises(CaseError, match="input `probe_u` of the model is not recorded"):
+        Machine(case, Amendment(read(case.library(), case.base)))
+    (tmp_path / "case.toml").write_text(text.replace("[signals.y]", recorded + "[signals.y]"))
+    case = load(tmp_path)
+    amendment = Amendment(read(case.library(), case.base))
+    assert {"probe1: tau*der(y) = u - y", "probe2: tau*der(y) = u - y"} <= {
+        s.label for s in opened(case, amendment, case.library(), []).sites
+    }

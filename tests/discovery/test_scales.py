@@ -52,7 +52,7 @@ def test_a_loss_in_a_line_is_a_place_beside_a_leak(tmp_path: Path) -> None:
     case = load(tmp_path)
     door = opened(case, Amendment(read_structure(case.library(), case.base)), case.library(), [])
     believed = {n: v.start for n, v in door.machine.model.parameters.items()}
-    places = door.places(door.linear.along(believed, case.fit[0]))
+    places = door.places([door.linear.along(believed, case.fit[0])])
     assert {(p.location, p.unit) for p in places} == {("pa", "m3/s"), ("ql", "Pa"), ("pl", "m3/s")}
 
 

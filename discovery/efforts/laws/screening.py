@@ -90,12 +90,20 @@ def _best(found: list[tuple[Regression, list[tuple[int, ...]]]], most: int) -> l
     """The best laws in all quantities, which explain different things; the last of them of the state alone whose
     balance it is, where none is: along a run that a smooth effort leads, speeds on both ends of a stiff rope change
     their sign as one, and which of them rubs only fits tell."""
-    scored = sorted((law for r, groups in found for law in _scored(r, groups)), key=lambda law: law[0])
+    scored = sorted((law for r, groups in found for law in _scored(r, groups)), key=_in_order)
     best = _distinct(scored, most)
     own = next((law for law in scored if _is_own(law)), None)
     if own is not None and len(best) == most > 1 and not any(map(_is_own, best)):
         best[-1] = own
     return [_proposal(r, groups) for _, r, groups in best]
+
+
+def _in_order(law: Scored) -> tuple[int, int]:
+    """By the score to a nat, in which a level over another one of the same unit comes after the level itself."""
+    score, regression, chosen = law
+    texts = [text for g in chosen for text in regression.groups[g].texts]
+    apart = [v for v in regression.place.variables if v.minus and any(v.scaled in text for text in texts)]
+    return round(score), len(apart)
 
 
 def _is_own(law: Scored) -> bool:

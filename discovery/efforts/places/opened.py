@@ -8,7 +8,7 @@ it changes where it changes no state.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -32,7 +32,7 @@ from lacuna.discovery.efforts.latent.linear import Linear
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.places.families import families
 from lacuna.discovery.efforts.places.insertion import probe
-from lacuna.discovery.efforts.places.place import ORDER, Place, told_apart
+from lacuna.discovery.efforts.places.place import ORDER, Place, own_name, told_apart
 from lacuna.discovery.efforts.places.reading import read
 from lacuna.discovery.efforts.places.sites import Site, exchanges, renames, varying
 from lacuna.discovery.fit.machine import Machine, richer
@@ -59,10 +59,11 @@ class Opened:
         names = [n for n, v in self.believed.declared.variables.items() if v.hidden]
         return frozenset([*names, *(f"der({n})" for n in names)])
 
-    def places(self, along: Along) -> list[Place]:
-        """Places that have an effect, those alike put together: by what they do where both do something (what varies as
-        a coefficient of a force that is off does nothing). First of those alike the one that changes least at once: its
-        law may be of what the others change (friction in proportion to the force of a gas, in their sum)."""
+    def places(self, along: Sequence[Along]) -> list[Place]:
+        """Places that have an effect along these recordings, those alike put together: by what they do where both do
+        something (what varies as a coefficient of a force that is off does nothing). First of those alike the one that
+        changes least at once: its law may be of what the others change (friction in proportion to the force of a gas,
+        in their sum)."""
         effect = self._effect(along)
         direction = _directions(effect)
         groups: list[list[int]] = []
@@ -79,7 +80,9 @@ class Opened:
                     break
             else:
                 groups.append([k])
-        answer = np.count_nonzero(along.answering, axis=0)  # unknowns that each changes at once
+        answer = np.count_nonzero(
+            np.any([a.answering for a in along], axis=0), axis=0
+        )  # unknowns that each changes at once
         groups = [sorted(group, key=lambda k: answer[k]) for group in groups]
         found = told_apart([self._place(group, effect) for group in groups])
         return self._with_families(found, groups, effect)
@@ -100,13 +103,18 @@ class Opened:
                 wholes[members] = whole
         return [*places, *wholes.values()]
 
-    def _effect(self, along: Along) -> np.ndarray:
+    def _effect(self, along: Sequence[Along]) -> np.ndarray:
         """(n, x + y, sites): rates of the states and outputs, each in its own size, that an effort causes at once."""
         states, count = self.linear.states, len(self.sites)
-        rates = [np.sqrt(np.mean(along.values[f"der({s})"] ** 2)) or 1.0 for s in states]
-        outputs = [np.std(along.values.get(v, np.ones(1))) or 1.0 for v in self.machine.columns.values()]
-        direct = along.direct[:, : len(states), :count] / np.array(rates)[None, :, None]
-        return np.concatenate([direct, along.feed[:, :, :count] / np.array(outputs)[None, :, None]], axis=1)
+
+        def course(name: str) -> np.ndarray:
+            return np.concatenate([np.atleast_1d(a.values.get(name, np.ones(1))) for a in along])
+
+        rates = [np.sqrt(np.mean(course(f"der({s})") ** 2)) or 1.0 for s in states]
+        outputs = [np.std(course(v)) or 1.0 for v in self.machine.columns.values()]
+        direct, feed = (np.concatenate([getattr(a, n) for a in along]) for n in ("direct", "feed"))
+        sizes = np.array([*rates, *outputs])[None, :, None]
+        return np.concatenate([direct[:, : len(states), :count], feed[:, :, :count]], axis=1) / sizes
 
     def _place(self, group: list[int], effect: np.ndarray) -> Place:
         states = self.linear.states
@@ -141,9 +149,10 @@ class Opened:
         return into.rpartition(".")[0] or into
 
     def _quantity(self, place: Place, k: int, proportional: bool) -> Place:
-        """A place by another one of its sites."""
+        """A place by another one of its sites: of another component, that has its name."""
         site = self.sites[k]
-        location = site.label if site.kind == "input" else place.location
+        elsewhere = site.kind == "equation" and site.instance and not place.location.startswith(site.instance)
+        location = site.label if site.kind == "input" else own_name(site) if elsewhere else place.location
         only = site.label if proportional else ""
         return replace(place, location=location, sites=(site,), columns=(k,), unit=self._unit(k), only=only)
 

@@ -56,10 +56,15 @@ def _own_name(place: Place, taken: list[str]) -> str:
         owners = [e.rpartition(".")[0] for s in place.sites if s.kind == "node" for e in s.ends]
         name = site.left or max(dict.fromkeys(owners), key=owners.count)
     elif site.kind == "equation":
-        name = site.label.replace(": ", ".", 1) if site.instance else site.label
-        first = re.search(r"\bder\(([\w.]+)\)", site.label)  # its own coordinate, where masses are coupled
-        name = site.left or (first[1] if first and not site.instance else name.partition("=")[0].strip())
+        name = own_name(site)
     return name if re.fullmatch(r"[\w.\[\]]+", name) and name not in taken else place.location
+
+
+def own_name(site: Site) -> str:
+    """What an equation says something of."""
+    name = site.label.replace(": ", ".", 1) if site.instance else site.label
+    first = re.search(r"\bder\(([\w.]+)\)", site.label)  # its own coordinate, where masses are coupled
+    return site.left or (first[1] if first and not site.instance else name.partition("=")[0].strip())
 
 
 def _renamed(place: Place, name: str) -> Place:
