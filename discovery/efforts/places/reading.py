@@ -27,7 +27,7 @@ from lacuna.discovery.efforts.places.sites import MOST, Site, Sites, Step, occur
 ALGORITHM = "it is a statement of an algorithm that other statements follow"
 DEFINITION = "it only says that one variable is the rate of another"
 MANY = f"it is one of more than {MOST}"
-LIBRARY = "its class, of a library, is made of components: only its ports are open"
+LIBRARY = "its class, of a library, is made of components: what is inside is closed"
 ELSEWHERE = "its class is named in a text that is not of the model"
 
 Way = tuple[Step, ...]
