@@ -19,7 +19,7 @@ from lacuna.discovery.efforts.instruments import NATS
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
-from lacuna.discovery.fit.evidence import LEFT, nearly_noise, pays
+from lacuna.discovery.fit.evidence import LEFT, excess, nearly_noise, pays
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.law.empirical_law import fitted_law, simplified, unmoved
 from lacuna.discovery.law.law import attach, component_of
@@ -29,6 +29,7 @@ from lacuna.discovery.naming.comparison import MIN_GAIN, price, score, told_by_d
 from lacuna.discovery.naming.judge import try_judge
 from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Finding
+from lacuna.discovery.naming.race import HALF
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.naming.search import UNTOLD, Search
 from lacuna.runtime import SimulationError
@@ -83,8 +84,8 @@ class Both:
 def two_places(
     unbegun: Search, pair: tuple[Place, Place], single: Candidate | None, progress: Progress
 ) -> Search | None:
-    """A search that has found two laws at two places; None where they leave more than noise or do not pay. `single` is
-    the best law at one place."""
+    """A search that has found two laws at two places; None where they leave more than noise, and most of what `single`
+    leaves, the best law at one place, or do not pay."""
     joining = Joining(unbegun, progress)
     looking(f"laws at {pair[0].site.location} and {pair[1].site.location}")
     try:
@@ -171,7 +172,8 @@ class Joining:
 
     def laws(self, pair: tuple[Place, Place], single: Candidate | None) -> Both | None:
         """The best two laws, of one group of terms each; of two where these leave more than noise, and yet less than a
-        `single` one at one place does. Simplified, each beside the other; None where all leave more than noise."""
+        `single` one at one place does. Simplified, each beside the other; None where all leave more than noise, and
+        most of what that one leaves."""
         best: Both | None = None
         for ones, twos in zip(pair[0].offered, pair[1].offered, strict=False):
             best = self._best(ones, twos, best)
@@ -179,7 +181,8 @@ class Joining:
                 return self._simplified(best)
             if best is None or (single and self._is_less(single, best)):
                 return None
-        return None
+        most = best is None or single is None or excess(best.fit) > HALF * excess(single.fit)
+        return None if most else self._simplified(best)
 
     def _is_less(self, single: Candidate, both: Both) -> bool:
         correlation = min(single.fit, both.fit, key=lambda f: f.deviance()).correlation()
