@@ -12,7 +12,7 @@ from lacuna.codegen.compile import compile_model
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.searched import believed_structure
-from lacuna.discovery.efforts.places.opened import opened
+from lacuna.discovery.efforts.places.opened import RIGID, opened
 from lacuna.discovery.explain import explain, write_amended
 from lacuna.discovery.law.law import own_values
 from lacuna.discovery.law.law_terms import evaluate
@@ -175,6 +175,7 @@ def test_equations_in_which_a_parameter_stands_are_open_and_those_that_only_join
     assert not any(label.startswith(("cone: a.s", "suspension: a.f", "ground")) for label in inside)
     (both,) = (s for s in door.sites if s.kind == "parameter")
     assert both.label == "coil.k" and len(both.parts) == 2
+    assert dict(door.closed)["coil.flange to cone.a"] == RIGID
 
 
 def test_a_force_factor_that_falls_with_the_way_is_one_law_of_one_parameter(

@@ -39,6 +39,7 @@ from lacuna.discovery.fit.machine import Machine, richer
 from lacuna.units import Unit
 
 RENAMES = "it only gives a name to what is recorded: an error there is its sensor's"
+RIGID = "what acts there would have to be differentiated: states depend on each other by it"
 BALANCES = ("node", "equation", "branch", "edge")  # kinds of places in one balance, or between two
 ALIKE = 1e-5  # of a direction, by which two places may differ: rounding of the linearisation
 
@@ -272,7 +273,8 @@ def _openable(case: Case, amendment: Amendment, sites: list[Site], closed: list[
         translate(str(write_source(_with_probes(amendment, sites))), search_path=case.search_path)
     except (Diagnostic, CompilerError) as reason:
         if len(sites) == 1:
-            closed.append((sites[0].label, str(reason).split(": error", 1)[-1].split("\n")[0]))
+            rigid = isinstance(reason, Diagnostic) and reason.code == "S004"
+            closed.append((sites[0].label, RIGID if rigid else str(reason).split(": error", 1)[-1].split("\n")[0]))
             return []
         middle = len(sites) // 2
         halves = [_openable(case, amendment, half, closed) for half in (sites[:middle], sites[middle:])]
