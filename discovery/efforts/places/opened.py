@@ -81,9 +81,8 @@ class Opened:
                     break
             else:
                 groups.append([k])
-        answer = np.count_nonzero(
-            np.any([a.answering for a in along], axis=0), axis=0
-        )  # unknowns that each changes at once
+        answering = np.any([a.answering for a in along], axis=0)
+        answer = np.count_nonzero(answering, axis=0)  # unknowns that each changes at once
         groups = [sorted(group, key=lambda k: answer[k]) for group in groups]
         found = told_apart([self._place(group, effect) for group in groups])
         return self._with_families(found, groups, effect)
@@ -152,13 +151,17 @@ class Opened:
     def _quantity(self, place: Place, k: int, proportional: bool) -> Place:
         """A place by another one of its sites: of another component, that has its name."""
         site = self.sites[k]
-        elsewhere = site.kind == "equation" and site.instance and not place.location.startswith(site.instance)
+        elsewhere = site.kind == "equation" and site.instance and not _is_in(place.location, site.instance)
         location = site.label if site.kind == "input" else own_name(site) if elsewhere else place.location
         only = site.label if proportional else ""
         return replace(place, location=location, sites=(site,), columns=(k,), unit=self._unit(k), only=only)
 
     def _unit(self, number: int) -> str:
         return unit_of(self.sites[number], self.believed)
+
+
+def _is_in(name: str, component: str) -> bool:
+    return f"{name}.".startswith(f"{component}.")
 
 
 def _directions(effect: np.ndarray) -> np.ndarray:

@@ -124,7 +124,7 @@ class _Reading:
 
 
 def _written_in(part: Instance, way: Way) -> list[Site]:
-    """The equations that stand in the text of a component's own class, none in a loop, of scalars."""
+    """The equations that stand in the text of a component's own class, none in a loop."""
     found = []
     for section, owner in part.sections:
         scope = Scope(part.context, owner, part)
