@@ -10,6 +10,7 @@ from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.values import Value
 from lacuna.codegen.flatten.names.views import constrain, is_specialised, member, modified, redeclarations, view
 from lacuna.codegen.library.classes import PREDEFINED, Library
+from lacuna.codegen.library.search_path import WITHOUT_MODELICA
 from lacuna.codegen.syntax import ast
 from lacuna.suggest import did_you_mean
 
@@ -167,7 +168,8 @@ def imported_class(library: Library, item: ast.Import) -> ast.Class | None:
         if found is None:
             if at and at == len(item.path.names) - 1 and not item.every:
                 return None
-            hint = did_you_mean(name, library.members(cls), "declare it, or import its package")
+            otherwise = WITHOUT_MODELICA if (at, name) == (0, "Modelica") else "declare it, or import its package"
+            hint = did_you_mean(name, library.members(cls), otherwise)
             where = f" in {cls.path}" if cls.name else ""
             raise Diagnostic("R002", f"import: there is no class {name}{where}", item.span, hint)
         last = at == len(item.path.names) - 1

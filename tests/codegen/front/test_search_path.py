@@ -10,7 +10,7 @@ import pytest
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten import flatten
 from lacuna.codegen.library.classes import Library
-from lacuna.codegen.library.search_path import MODEL_FOLDER, search_path
+from lacuna.codegen.library.search_path import MODEL_FOLDER, WITHOUT_MODELICA, search_path
 
 
 def write(folder: Path, **files: str) -> Path:
@@ -84,6 +84,14 @@ def test_modelicapath_is_searched_in_order_and_after_named_libraries(place: Path
     assert factor(Library(), "Lib.M") == 2
     assert factor(Library(), "Other.M") == 8  # the newest of its versions
     assert factor(Library(search_path(["named"])), "Lib.M") == 4
+
+
+@pytest.mark.parametrize("text", ["Modelica.Blocks.Math.Gain g;", "import Modelica.Blocks; Blocks.Math.Gain g;"])
+def test_where_the_standard_library_is_to_be_named_is_said_however_it_is_used(place: Path, text: str) -> None:
+    (place / "A.mo").write_text(f"model A {text} end A;")
+    with pytest.raises(Diagnostic) as found:
+        flatten(Library(), "A.mo")
+    assert found.value.hint == WITHOUT_MODELICA
 
 
 def test_a_copy_of_lacuna_stands_in_for_the_one_that_came(place: Path) -> None:
