@@ -158,9 +158,11 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
     search.restarts = bool(shafts)
     try:
         search.run(progress, most=1)
+        held = unbegun
         if search.lost():
-            search, unbegun = _anew(result, search, unbegun, shafts, progress)
-        explain_beyond(search, unbegun, progress)
+            search, held = _anew(result, search, unbegun, shafts, progress)
+        explain_beyond(search, held, progress)
+        unbegun = held if search.amendment.trackers or not search.lead.direct else unbegun
         explain_open(search, unbegun, library, progress, places_known, located)
         if not search.findings:
             result.instead = sensor_instead(search, catalogue.read(library), progress)
