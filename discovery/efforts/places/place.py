@@ -43,18 +43,26 @@ def told_apart(places: list[Place]) -> list[Place]:
 
 
 def _is_second(place: Place, places: list[Place]) -> bool:
-    """Whether another place has as good a right to its name."""
-    site = place.sites[0]
-    others = [p.sites[0].kind for p in places if p.location == place.location and p is not place]
+    """Whether another place has as good a right to its name: a better one, where that is of the component itself."""
+    site, same = place.sites[0], [p for p in places if p.location == place.location and p is not place]
+    if (own := _is_of(place)) != any(map(_is_of, same)):
+        return not own
+    others = [p.sites[0].kind for p in same]
     joins = site.kind == "node" and site.left != "" and "branch" in others  # a spring, to which a mass is joined
     return joins or any(ORDER[kind] <= ORDER[site.kind] for kind in others)
+
+
+def _is_of(place: Place) -> bool:
+    """Whether it is past a component of its name, or in an equation of that."""
+    return any(place.location in ((s.label,) if s.kind == "branch" else (s.instance,)) for s in place.sites)
 
 
 def _own_name(place: Place, taken: list[str]) -> str:
     site, name = place.sites[0], ""
     if site.kind == "node":
         owners = [e.rpartition(".")[0] for s in place.sites if s.kind == "node" for e in s.ends]
-        name = site.left or max(dict.fromkeys(owners), key=owners.count)
+        free = [owner for owner in dict.fromkeys(owners) if owner not in taken] or owners
+        name = site.left or max(free, key=owners.count)
     elif site.kind == "equation":
         name = own_name(site)
     return name if re.fullmatch(r"[\w.\[\]]+", name) and name not in taken else place.location
