@@ -81,7 +81,8 @@ def own_machine(
 
 
 def shared(case: Case, amendment: Amendment, attachments: list[Attachment], base: Fit) -> dict[str, Machine]:
-    """By label, the machine in which a hypothesis can be seen beside others; those that need their own are missing."""
+    """By label, the machine in which a hypothesis can be seen beside others; those that need their own are missing: all
+    that would be added, where one of them cannot be simulated (a spring at a shaft that turns on and on)."""
     sensors = tuple(a for a in attachments if a.variable and a.effect.neutral)  # a lag may be stiff where all is slow
     silent = list({a.component: a for a in attachments if _is_silent(a)}.values())
     for added in (silent, []):
@@ -89,7 +90,7 @@ def shared(case: Case, amendment: Amendment, attachments: list[Attachment], base
         if len(added) + len(sensors) < 2:
             return {}
         machine, _ = try_machine(case, whole, base.machine)
-        if machine is not None:
+        if machine is not None and all(machine.simulate(base.point, r) is not None for r in machine.case.fit):
             read = {a.label: try_machine(case, replace(whole, seen=a), base.machine)[0] for a in sensors}
             return dict.fromkeys((a.label for a in added), machine) | read
     return {}

@@ -57,6 +57,20 @@ def test_a_hypothesis_promises_beside_others_what_it_promises_alone(case: Case, 
         assert [c.predicted for c in beside] == pytest.approx([c.predicted for c in alone], abs=1e-3), one.label
 
 
+def test_errors_of_sensors_are_seen_at_a_shaft_that_turns_on_and_on(case: Case, base: Fit) -> None:
+    """A spring there cannot be simulated: all that would share a model with it were of no use."""
+    fast = replace(case, fit=[r.redriven("fast", {"u": lambda u: 0 * u + 100.0}) for r in case.fit])
+    machine = base.machine.amended(base.machine.amendment, fast)
+    there = linearised(machine, fast.fit, base.noise, base.estimate.free, base.fixed, base.point)
+    assert max(np.abs(machine.simulate(there.point, r)["theta"]).max() for r in fast.fit) > 2000
+    names = ("Spring", "SensorGain", "SensorCubic")
+    found = [attachment(fast, name) for name in names]
+    machines = shared(fast, machine.amendment, found, there)
+    assert found[0].label not in machines
+    for one in found[1:]:
+        assert prepare(Screen(there), one, machines[one.label])[0].predicted > 0
+
+
 def test_a_first_look_is_coarse_where_nothing_switches_and_promises_the_same(case: Case, base: Fit) -> None:
     """At a tolerance whose errors are a thousandth of the noise; a hundred times as much is far below the response
     of a tenth of the misfit. A shaft that sticks lets go when it does, which is no error of that size."""
