@@ -123,7 +123,7 @@ def _doubt(match: Match) -> str:
 
 
 def _initial(text: _Text, draft: Draft) -> None:
-    text("[initial]  # of states, at each recording's first sample; at rest at zero where nothing is said")
+    text("[initial]  # of states, at each recording's first sample; where nothing is said, what the model starts from")
     unknown = [name for name, value in draft.initial.items() if value == "unknown"]
     if unknown:
         text.look(f"the machine does not begin at rest: where {', '.join(unknown)} begins is fitted")

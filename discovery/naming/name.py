@@ -137,7 +137,7 @@ def screen_all(
     failures = [(attachment.label, why) for attachment, (_, why) in looked_at if why]
     for attachment, (found, why) in looked_at:
         if why or not found:
-            left(attachment.label, "model" if why else "screen", why or "explains nothing that parameters could not")
+            left(attachment.label, "model" if why else "screen", why or "runs with none of it, or explains nothing new")
     return sorted((c for _, (found, _) in looked_at for c in found), key=lambda c: -c.predicted), failures
 
 
