@@ -12,6 +12,8 @@ from lacuna.discovery.case.cases import load
 from lacuna.discovery.case.gaps import in_pieces
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
+from lacuna.discovery.efforts.find import places_of
+from lacuna.discovery.efforts.instruments import locator_of
 from lacuna.discovery.explain import explain
 from lacuna.discovery.fit.evidence import astray
 from lacuna.discovery.fit.fit import believed, fit
@@ -106,4 +108,8 @@ def test_a_machine_without_states_begins_nowhere(tmp_path: Path) -> None:
         np.savetxt(tmp_path / f"{name}.csv", table, "%.8g", ",", header="time,i,u", comments="")
     case = load(tmp_path)
     machine = Machine(case, Amendment(read(case.library(), case.base)))
-    assert astray(fit_believed(case, machine)[0])
+    found = fit_believed(case, machine)[0]
+    assert astray(found)
+    where = places_of(case, machine.amendment, found, case.library())
+    assert not where.sites and "no state" in where.reason
+    assert locator_of(case, machine.amendment, found) is None

@@ -72,6 +72,8 @@ class Linear:
         self, point: Mapping[str, float], recording: Recording, efforts: Mapping[str, RecordedInput] | None = None
     ) -> Along:
         """The linear model along the trajectory from `point`. Raises SimulationError, NotNumeric."""
+        if not self.states and not self.memory:
+            raise NotNumeric("it has no state: no effort lasts in it")
         values, fixed = self._trajectory(point, recording, efforts)
         solved = self._solved(values, fixed, recording.time)
         course = finite(solved, len(recording.time))
