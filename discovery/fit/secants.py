@@ -16,7 +16,6 @@ import numpy as np
 
 from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.case.noise import last_digit, of_few_levels
-from lacuna.discovery.catalogue.attachment import OWN
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import Objective
@@ -43,7 +42,6 @@ def _around(found: Fit, machine: Machine) -> tuple[Problem | None, list[np.ndarr
     """The residual of a fit as a function of its parameters, weighted and held as it is, and its value at the fit's
     own; None where it does not run."""
     objective = Objective(machine, machine.case.fit, found.noise)
-    objective.stiffness = {n: v for n, v in found.fixed.items() if n.startswith(OWN)}
     free = found.estimate.free
     problem = Problem(free, objective, len(objective.recordings), found.fixed, objective.readers(f.name for f in free))
     here = problem.evaluate(found.estimate.values)

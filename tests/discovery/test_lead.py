@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from lacuna.codegen.library.classes import Library
@@ -16,6 +17,7 @@ from lacuna.discovery.fit.fit import FALLING, believed, falling_bandwidths, fit,
 from lacuna.discovery.fit.lead import BELIEVABLE, HELD, SHARES, Lead
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import noise_of
+from lacuna.discovery.fit.secants import solver_shift
 from lacuna.discovery.fit.tracking import trackable
 from lacuna.discovery.naming.name import screen_all
 from lacuna.discovery.steps import STIFFLY
@@ -91,3 +93,15 @@ def test_a_fit_that_grows_is_held_where_something_is_seen_to_be_missing(
     whole = SimpleNamespace(machine=machine_of(case), estimate=estimate, point={}, noise={}, fixed={})
     held = Lead(grows=True).hold(whole)
     assert len(held.machine.case.fit[0].time) == int(chosen * len(case.fit[0].time))
+
+
+def test_a_fit_of_a_held_shaft_has_errors(cogging_case: Path) -> None:
+    """Its Jacobian is of the recorded outputs: the motion that the shaft is held to is no recording of its own."""
+    case = load(cogging_case)
+    structure = read(Library(), case.model)
+    shafts = trackable(case, Machine(case, Amendment(structure)).model, structure)[:1]
+    machine = Machine(case, Amendment(structure, trackers=shafts))
+    free, fixed = believed(case, machine)
+    base = fit(machine, case.fit, noise_of(case), free, fixed, stages=1, iterations=0)
+    held = leading._tracked(base, falling_bandwidths(case, machine)[0])
+    assert np.all(np.isfinite(solver_shift(held)))

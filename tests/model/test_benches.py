@@ -173,3 +173,12 @@ def test_bldc_drive_goes_on_from_any_state(run, t_restart: float) -> None:
 def test_impossible_parameters_are_refused(run, bench: str, parameter: str, value: float) -> None:
     with pytest.raises(runtime.SimulationError, match=parameter):
         run(f"Benches.{bench}", parameters={parameter: value}, stop=0.1)
+
+
+@pytest.mark.parametrize("bench", ["FlightControl", "ScrewEma"])
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+def test_a_controlled_machine_comes_to_rest(run, bench: str, solver: str) -> None:
+    """Its errors end at zero: where their signs were events, each loop turned on and on there."""
+    at_rest = {"theta_cmd": 0.0, "T_aero": 0.0}
+    result = run(f"Benches.{bench}", stop=0.5, solver=solver, inputs=at_rest, initial={"shaft.w": 1e-3}, rtol=1e-6)
+    assert np.abs(result["wm"][-1]) < 1e-4

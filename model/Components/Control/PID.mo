@@ -19,7 +19,7 @@ equation
   Tf*der(x_d) = u - x_d;
   y_free = k*(u + x + Td/Tf*(u - x_d));
   y = if y_free > y_max then y_max elseif y_free < y_min then y_min else y_free;
-  beyond = if k*u > 0 then y_free - y_max else y_min - y_free;
+  beyond = noEvent(if k*u > 0 then y_free - y_max else y_min - y_free);
   Ti*der(x) = u*max(0, min(1, 1 - beyond/(onset*(y_max - y_min))));
   annotation(Documentation(info="<html>
 <p>Law: <code>y = k (1 + 1/(Ti s) + Td s/(1 + Td/Nd s)) u</code> within the limits; <code>Td = 0</code> is

@@ -15,7 +15,7 @@ equation
   error = w_ref - speed;
   i_free = Kw*error + x;
   i_ref = if i_free > i_max then i_max elseif i_free < -i_max then -i_max else i_free;
-  beyond = (if error > 0 then i_free else -i_free) - i_max;
+  beyond = noEvent(if error > 0 then i_free else -i_free) - i_max;
   der(x) = Ki*error*max(0, min(1, 1 - beyond/(onset*i_max)));
   annotation(Documentation(info="<html>
 <p>See <code>Interfaces.PartialController</code> for the law, and <code>PI</code> for how

@@ -15,7 +15,7 @@ equation
   error = wref - speed;
   u_free = Kw*error + Ki*xi;
   u = if u_free > Vdc then Vdc elseif u_free < -Vdc then -Vdc else u_free;
-  beyond = (if error > 0 then u_free else -u_free) - Vdc;
+  beyond = noEvent(if error > 0 then u_free else -u_free) - Vdc;
   der(xi) = error*max(0, min(1, 1 - beyond/(onset*Vdc)));
   annotation(Documentation(info="<html>
 <p>Proportional position loop with a limited speed reference, and a proportional-integral speed loop whose integral is

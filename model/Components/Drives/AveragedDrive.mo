@@ -24,7 +24,7 @@ equation
   error = i_set - i_pair;
   v_free = Kp*error + x;
   duty = if v_free > V then 1 elseif v_free < -V then -1 else v_free/V;
-  beyond = (if error > 0 then v_free else -v_free) - V;
+  beyond = noEvent(if error > 0 then v_free else -v_free) - V;
   der(x) = Ki*error*max(0, min(1, 1 - beyond/(onset*V)));
   annotation(Documentation(info="<html>
 <p>Proportional-integral control of the pair's current; the duty saturates at full voltage, and the integral is held
