@@ -54,9 +54,7 @@ class Attachment:
         """The label; of a law the law with its numbers at a point, and its place."""
         if self.law is None:
             return self.label
-        prefix = self.full_name("")
-        values = {n.removeprefix(prefix): v for n, v in point.items() if n.startswith(prefix)}
-        return f"{self.law.expression(values)} at {self.location}"
+        return f"{self.law.expression(self.own_values(point))} at {self.location}"
 
     @property
     def alike(self) -> tuple[str, str]:
@@ -66,6 +64,16 @@ class Attachment:
     def full_name(self, parameter: str) -> str:
         return f"{self.component}.{parameter}"
 
+    def own_values(self, point: Mapping[str, float]) -> dict[str, float]:
+        """The numbers of the effect or law at a point, by the names of its component."""
+        return values_of(self.component, point)
+
     def contains(self, other: Attachment) -> bool:
         """Whether its law holds the other's, at the same place, as a special case."""
         return self.effect.identifier in other.effect.nests_in and self.location == other.location
+
+
+def values_of(component: str, point: Mapping[str, float]) -> dict[str, float]:
+    """What a point says of one component, by the component's own names."""
+    prefix = f"{component}."
+    return {n.removeprefix(prefix): v for n, v in point.items() if n.startswith(prefix)}

@@ -23,7 +23,7 @@ from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit, fit, linearised
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.solver.free import Free
-from lacuna.discovery.law.law import Law, attach, component_of, own_values
+from lacuna.discovery.law.law import Law, attach, component_of
 from lacuna.discovery.law.law_screen import Effort, Proposal, screened, sites
 from lacuna.discovery.law.law_terms import DRY, Group, Shape, Variable, exponent, stribeck
 from lacuna.discovery.naming.comparison import best_correlation, note_laws, score
@@ -169,7 +169,7 @@ def _simpler(proposal: Proposal) -> list[Proposal]:
     law, fitted = proposal.law, proposal.candidate.fit
     covariance = fitted.estimate.covariance(fitted.inflation())
     errors = {f.name: float(np.sqrt(max(covariance[k, k], 0.0))) for k, f in enumerate(fitted.estimate.free)}
-    prefix, values = f"{component_of(law)}.", own_values(proposal.candidate.attachment, fitted.point)
+    prefix, values = f"{component_of(law)}.", proposal.candidate.attachment.own_values(fitted.point)
     found = [*_stuck(law, values), *_whole(law, values, errors.get(prefix + "c_1", 0.0))]
     for name, shape in law.shapes().items():
         near = [s for s in shape.simple if abs(s - values[name]) < SIGNIFICANT * errors[prefix + name] + 0.02 * s]
@@ -211,7 +211,7 @@ def varied(best: Proposal) -> list[Proposal]:
     """A fitted law with any exponent in the place of one that physics has, with dry friction that truly sticks in that
     of a steep one, with one that falls from rest on in that of a level one, or with a sign as steep as the data says;
     one group at a time."""
-    law, values = best.law, own_values(best.candidate.attachment, best.candidate.fit.point)
+    law, values = best.law, best.candidate.attachment.own_values(best.candidate.fit.point)
     found = [*_stuck(law, values), *_falling(law, values), *_steep(law, values)]
     for n, group in enumerate(law.groups):
         text = group.texts[0]

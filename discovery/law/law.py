@@ -112,18 +112,12 @@ def component_of(law: Law) -> str:
 
 def law_at(attachment: Attachment, point: Mapping[str, float]) -> str:
     """A law with its numbers at a point, in variables of the model; "" for a named effect."""
-    return attachment.law.expression(own_values(attachment, point)) if attachment.law else ""
+    return attachment.law.expression(attachment.own_values(point)) if attachment.law else ""
 
 
 def form_at(attachment: Attachment, point: Mapping[str, float]) -> str:
     """The name of a known form that a law has at a point; "" where it has none."""
-    return attachment.law.form(own_values(attachment, point)) if attachment.law else ""
-
-
-def own_values(attachment: Attachment, point: Mapping[str, float]) -> dict[str, float]:
-    """The numbers of an effect or a law at a point, by the names of its component."""
-    prefix = attachment.full_name("")
-    return {n.removeprefix(prefix): v for n, v in point.items() if n.startswith(prefix)}
+    return attachment.law.form(attachment.own_values(point)) if attachment.law else ""
 
 
 def _signature(law: Law) -> str:

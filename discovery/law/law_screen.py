@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lacuna.discovery.case.cases import Case
+from lacuna.discovery.catalogue.attachment import values_of
 from lacuna.discovery.catalogue.places import Device, Line, Shaft
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.time_limit import check
@@ -95,9 +96,8 @@ def screened(case: Case, here: Fit, law: Law | None, efforts: list[Effort], prog
 
 def _proposal(law: Law, here: Fit, coefficients: np.ndarray) -> Proposal:
     """Values as they stand in the fit so far, the new group's coefficients from the screening."""
-    prefix = f"{component_of(law)}."
     start = {name: shape.start for name, shape in law.shapes().items()}
-    start |= {n.removeprefix(prefix): v for n, v in here.point.items() if n.startswith(prefix)}
+    start |= values_of(component_of(law), here.point)
     names = [c for c, _, _ in law.numbered()]
     return Proposal(law, start | dict(zip(names[-len(coefficients) :], map(float, coefficients), strict=True)))
 

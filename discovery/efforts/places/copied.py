@@ -98,7 +98,7 @@ def _terms(site: Site, variable: str, text: str, starts: list[int]) -> list[Chan
     changes: list[Change] = []
     if site.kind == "signal":
         begin = _at(site.span, starts)
-        source, into = (end for end in sorted(site.ports, key=lambda end: end == _local(site, site.into)))
+        source, into = (end for end in sorted(site.ports, key=lambda end: end == site.inside(site.into)))
         return [(begin, False, f"{into} = {source} + {variable}", connection_end(text, begin))]
     for part in site.parts or (site,):
         begin = _at(part.span, starts)
@@ -113,10 +113,6 @@ def _terms(site: Site, variable: str, text: str, starts: list[int]) -> list[Chan
                 (end, True, f") + {site.term.replace('{@}', '@').replace('@', variable)}", end),
             ]
     return changes
-
-
-def _local(site: Site, name: str) -> str:
-    return name.removeprefix(f"{site.instance}.")
 
 
 def _broken(site: Site, variable: str, text: str, starts: list[int]) -> list[Change]:

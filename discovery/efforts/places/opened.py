@@ -186,7 +186,7 @@ def unit_of(site: Site, prepared: Prepared) -> str:
     if site.kind == "signal":
         return prepared.declared.variables[site.into].unit
     site = site.parts[0] if site.parts else site
-    left = _left(site.label.removeprefix(f"{site.instance}: "))
+    left = _left(site.local)
     declared = prepared.declared
     equation = next(
         (e for e in declared.equations if e.origin == site.instance and _left(e.text) == left),

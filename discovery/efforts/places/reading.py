@@ -87,10 +87,7 @@ class _Reading:
             if any(isinstance(i, ast.Connect) for section, _ in parts[0].sections for i in _flat(section.items)):
                 self.closed.append((child.name, LIBRARY))
             if isinstance(child, Instance) and (named := self._named(node, name)) is not None:
-                written_there = _written_in(child, (*named[0], named[1]))
-                own = [n for n, e in child.elements.items() if e.declaration.variability == "parameter"]
-                self.laws += [s for s in written_there if any(occurrences(n, s.local, 0, len(s.local)) for n in own)]
-                self.library += [s for s in written_there if s not in self.laws]
+                self._of_library(child, (*named[0], named[1]))
         elif (named := self._named(node, name)) is None or any(
             _as_written(p.cls) is not _as_written(named[1].cls) for p in parts
         ):
@@ -103,6 +100,13 @@ class _Reading:
             for part, index in zip(parts, indices(shape), strict=True):
                 one = replace(step, element=(*step.element, *index), shape=(*step.shape, *shape))
                 self.enter(part, (*way, one))
+
+    def _of_library(self, part: Instance, way: Way) -> None:
+        """The equations of a component of a library: those in which a parameter stands are laws of its own."""
+        own = [n for n, e in part.elements.items() if e.declaration.variability == "parameter"]
+        for site in _written_in(part, way):
+            law = any(occurrences(n, site.local, 0, len(site.local)) for n in own)
+            (self.laws if law else self.library).append(site)
 
     def _named(self, node: Instance, name: str) -> tuple[Way, Step] | None:
         """(way to the class in whose text the class of a component is named, in its declaration or in a modification

@@ -99,7 +99,7 @@ class Site:
     @property
     def ports(self) -> tuple[str, ...]:
         """Where it is joined, as the class says it in which it stands."""
-        return tuple(end.removeprefix(f"{self.instance}.") for end in self.ends)
+        return tuple(self.inside(end) for end in self.ends)
 
     @property
     def element(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
@@ -119,7 +119,12 @@ class Site:
     @property
     def local(self) -> str:
         """The label as its own class says it."""
-        return self.label.removeprefix(f"{self.instance}: ").removeprefix(f"{self.instance}.")
+        instance, _, text = self.label.partition(": ")
+        return text if text and instance == self.instance else self.inside(self.label)
+
+    def inside(self, name: str) -> str:
+        """What a variable is called in the class in which the place is."""
+        return name.removeprefix(f"{self.instance}.") if self.instance else name
 
 
 @dataclass(frozen=True)
@@ -153,16 +158,11 @@ def varying(places: Iterable[Site], names: Mapping[str, int], kind: str = "param
     found = []
     for name in names:
         owners = {"", name.rpartition(".")[0]}
-        parts = [e for e in equations if e.instance in owners and re.search(_alone(_seen_in(name, e)), e.local)]
+        parts = [e for e in equations if e.instance in owners and re.search(_alone(e.inside(name)), e.local)]
         least = 2 if any(e.instance for e in parts) else 1
         if least <= len(parts) == names[name] and len({(e.instance, e.way) for e in parts}) == 1:
             found.append(Site(kind, name, parts=tuple(parts), instance=parts[0].instance, way=parts[0].way))
     return found
-
-
-def _seen_in(name: str, equation: Site) -> str:
-    """What a variable is called in the class of an equation."""
-    return name.removeprefix(f"{equation.instance}.") if equation.instance else name
 
 
 def _alone(name: str) -> str:

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from lacuna.discovery.catalogue.attachment import values_of
 from lacuna.discovery.catalogue.trace import left, looking
 from lacuna.discovery.efforts.find import TRIED, Found, alike, simplest
 from lacuna.discovery.efforts.instruments import NATS
@@ -278,6 +279,4 @@ def _is_needed(law: Candidate, beside: Candidate | None) -> bool:
 
 def _at(proposal: Proposal, fit: Fit) -> Proposal:
     """A law that starts where it was fitted together with another one."""
-    prefix = f"{component_of(proposal.law)}."
-    start = {n.removeprefix(prefix): v for n, v in fit.point.items() if n.startswith(prefix)}
-    return replace(proposal, start=start, point=fit.point)
+    return replace(proposal, start=values_of(component_of(proposal.law), fit.point), point=fit.point)

@@ -21,7 +21,7 @@ from lacuna.discovery.fit.evidence import pays, within_instruments
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.law.beyond import MARGIN
 from lacuna.discovery.law.empirical_law import simplified
-from lacuna.discovery.law.law import Law, own_values
+from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.naming.candidate_fit import without
 from lacuna.discovery.naming.comparison import MIN_GAIN, TIE, Ranked, price, said, score, told_by_data
@@ -89,7 +89,7 @@ def simplify(search: Search, progress: Progress) -> None:
         if base is None:
             continue
         progress(f"what is not needed at {ranked.attachment.location}")
-        values = own_values(ranked.attachment, search.fit.point)
+        values = ranked.attachment.own_values(search.fit.point)
         present = Proposal(law, values, replace(ranked.candidate, fit=search.fit))
         simpler = simplified(search.case, amendment, base, present)
         if simpler is not present:

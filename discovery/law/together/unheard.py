@@ -26,7 +26,6 @@ from lacuna.discovery.fit.evidence import pays, within_instruments
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.lead import fit_believed
 from lacuna.discovery.law.empirical_law import unmoved
-from lacuna.discovery.law.law import own_values
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.law.together.several import errors_of_sensors, finding
 from lacuna.discovery.naming.comparison import MIN_GAIN
@@ -106,7 +105,7 @@ def _law_without(unbegun: Search, sensor: Signal, library: Library, progress: Pr
 
 def _as_found(law: Candidate, base: Fit) -> Proposal:
     """A law that starts where it was fitted to the other sensors, starts that only `base` has as they are there."""
-    values = own_values(law.attachment, law.fit.point)
+    values = law.attachment.own_values(law.fit.point)
     return Proposal(law.attachment.law, values, point=base.point | law.fit.point)
 
 
