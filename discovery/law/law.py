@@ -14,6 +14,7 @@ from lacuna.discovery.efforts.places.families import said_of_all
 from lacuna.discovery.efforts.places.insertion import States, component
 from lacuna.discovery.law.forms import form_of, picked
 from lacuna.discovery.law.law_terms import Group, Shape, Variable
+from lacuna.discovery.law.unscaled import unscaled
 
 
 @dataclass(frozen=True)
@@ -66,14 +67,13 @@ class Law:
 
     def expression(self, values: Mapping[str, float]) -> str:
         """The law in variables of the model, with its numbers; `values` by the component's own names."""
+        known = dict(values) | {f"{v.local}_ref": v.size for v in self.site.variables}
         terms = []
         for c, text, shapes in self.numbered():
-            text = text.format(**{s: f"{values[full]:.4g}" for s, full in shapes.items()})
-            terms.append(self._limit(text) or f"{values[c]:.4g}" + (f"*{text}" if text != "1" else ""))
-        whole = re.sub(r"\bdry\((\w+)/\w+_ref\)", r"sign(\1)", " + ".join(terms)).replace("+ -", "- ")
-        whole = re.sub(r"\b(?:delay|onset)\(([^,]+, [^,)]+), [^,)]+\)", r"delay(\1)", whole)
+            limit = self._limit(text.format(**{s: f"{values[full]:.4g}" for s, full in shapes.items()}))
+            terms.append(limit or unscaled(f"{c}*{text.format(**shapes)}", known))
+        whole = " + ".join(terms).replace("+ -", "- ")
         for v in self.site.variables:
-            whole = whole.replace(f"{v.local}_ref", f"{v.size:g}")
             whole = _renamed(whole, v.local, v.reading)
         return said_of_all(whole, self.site.place.members) if isinstance(self.site.place, sites.Site) else whole
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,9 +14,11 @@ from lacuna.discovery.efforts.laws import screening
 from lacuna.discovery.efforts.laws.terms import counts, groups
 from lacuna.discovery.efforts.laws.variables import variables
 from lacuna.discovery.efforts.places.sites import Site as Place
+from lacuna.discovery.law import unscaled as writing
 from lacuna.discovery.law.empirical_law import free_of
 from lacuna.discovery.law.law import Law, Site, attach
-from lacuna.discovery.law.law_terms import Group, Variable
+from lacuna.discovery.law.law_terms import Group, Variable, evaluate
+from lacuna.discovery.law.unscaled import unscaled
 
 TIME = np.linspace(0, 10, 201)
 ROOM = {
@@ -54,7 +57,7 @@ def test_a_law_of_a_difference_reads_the_model_and_is_told_in_it() -> None:
     variable = next(v for v in found(To=290.0) if v.reading == "(T1 - To)")
     place = Site(Place("equation", "C1*der(T1) = P - q"), "T1", "W", (variable,))
     law = Law(place, (Group((f"sign({variable.local})*abs{variable.scaled}^1.25",)),))
-    assert law.expression({"c_1": -2.0}) == f"-2*sign((T1 - To))*abs((T1 - To)/{variable.size:g})^1.25"
+    assert law.expression({"c_1": -2.0}) == f"{-2.0 / variable.size**1.25:.4g}*sign((T1 - To))*abs((T1 - To))^1.25"
     assert attach(law).signals == ((variable.local, "(T1 - To)"),)
     np.testing.assert_allclose(variable.course(along(**ROOM, To=290.0)[0].values), ROOM["T1"] - 290.0)
 
@@ -143,3 +146,40 @@ def test_along_many_turns_the_orders_of_a_turn_are_tried(unit: str, turns: float
     every = groups([angle], {"x1": (0.0, turns * 2 * np.pi / 100.0)}, 0.01, 10.0)
     numbers = [g.shapes[0].start / 100.0 for g in every if g.texts[0].startswith("sin(")]
     assert any(n == pytest.approx(12.0, rel=1e-9) for n in numbers) == offered
+
+
+def test_every_term_is_said_without_the_sizes_of_its_variables(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(writing, "DIGITS", 12)
+    kept = found(To=290.0)
+    paths = {v.local: v.course(along(**ROOM, To=290.0)[0].values) for v in kept} | {"time": TIME}
+    sizes = {v.local: v.size for v in kept}
+    ranges = {n: (float(c.min()) / sizes[n], float(c.max()) / sizes[n]) for n, c in paths.items() if n != "time"}
+    place = Site(Place("equation", "C1*der(T1) = P - q"), "T1", "W", tuple(kept))
+    for group in groups(kept, ranges, 0.05, 10.0):
+        law = Law(place, (group,))
+        start = {n: s.start for n, s in law.shapes().items()} | {c: 1.0 for c, _, _ in law.numbered()}
+        for c, text, shapes in law.numbered():
+            said = unscaled(f"{c}*{text.format(**shapes)}", start | {f"{n}_ref": s for n, s in sizes.items()})
+            assert "_ref" not in said
+            known = text.format(**{s: repr(start[n]) for s, n in shapes.items()})
+            if not re.search(r"delay|onset", known):  # of which how far apart they are kept is not said
+                course, expected = (evaluate(e, paths, sizes) for e in (said, known))
+                np.testing.assert_allclose(course, expected, rtol=1e-6, atol=1e-6, err_msg=said)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("c*((T/T_ref) - q)", "-0.008333*(T - 279.15)"),
+        ("c*sin(900*(w/w_ref))", "-2.5*sin(9*w)"),
+        ("c*dry((w/w_ref))*(x/x_ref)", "-125*sign(w)*x"),
+        ("c*min(0, (x/x_ref) + q)", "-125*min(0, x + 0.01861)"),
+        ("c*hysteresis((w/w_ref), 0.05)", "-2.5*hysteresis(w, 5)"),
+        ("c*((x/x_ref) - onset((x/x_ref), 7.5, 0.02))", "-125*(x - delay(x, 7.5))"),
+        ("c*(w/w_ref)/(1 + q*abs((w/w_ref)))", "-0.025*w/(1 + 0.009305*abs(w))"),
+        ("c*abs((w/w_ref))^p", "-25*abs(w)^(-0.5)"),
+        ("c*1", "-2.5"),
+    ],
+)
+def test_a_term_is_said_in_units_of_its_variables(text: str, said: str) -> None:
+    assert unscaled(text, {"c": -2.5, "q": 0.9305, "p": -0.5, "T_ref": 300.0, "w_ref": 100.0, "x_ref": 0.02}) == said
