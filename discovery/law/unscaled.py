@@ -8,10 +8,8 @@ from dataclasses import dataclass, replace
 import math
 import re
 
-DIGITS = 4  # of a number that is said
 _SAID = {"dry": "sign", "onset": "delay"}  # functions that differ in how they are simulated only
 _LINEAR = ("lag", "delay", "onset", "swing")  # in their first argument
-_EXTREMES = ("max", "min")
 
 
 @dataclass(frozen=True)
@@ -65,7 +63,7 @@ def _combined(a: _Scaled, op: ast.operator, b: _Scaled) -> _Scaled:
 
 def _power(a: _Scaled, b: _Scaled) -> _Scaled:
     """A power, of which the number is taken out where it is one of a positive number to a known exponent."""
-    power = ast.Name(f"({b.factor:.{DIGITS}g})") if b.of is None and b.factor < 0 else b.node()
+    power = ast.Name(f"({b.factor:.4g})") if b.of is None and b.factor < 0 else b.node()
     if b.of is None and a.factor > 0:
         return _Scaled(a.factor**b.factor, a.of and ast.BinOp(a.of, ast.Pow(), power))
     return _Scaled(1.0, ast.BinOp(a.node(), ast.Pow(), power))
@@ -94,7 +92,7 @@ def _called(name: str, arguments: list[_Scaled]) -> _Scaled:
         return _Scaled(first.factor, _call(name, first.of, *(p.node() for p in kept)))
     if first.of is not None and name == "hysteresis":  # what is dragged along, and on which way it is bent
         return _Scaled(first.sign, _call(name, first.of, _number(rest[0].factor / abs(first.factor))))
-    if name in _EXTREMES:
+    if name in ("max", "min"):
         share = _common(arguments)
         return _Scaled(share, _call(name, *(_part(p, share) for p in arguments)))
     return _Scaled(1.0, _call(name, *(p.node() for p in arguments)))
@@ -110,8 +108,8 @@ def _part(part: _Scaled, share: float) -> ast.expr:
     """A part over what is taken out; of a number as many places as what it is compared with has."""
     if part.of is not None:
         return replace(part, factor=part.sign if abs(part.factor) == share else part.factor / share).node()
-    places = DIGITS - math.floor(math.log10(1.0 / share))
-    return _number(round(part.factor / share, places), 3 * DIGITS)
+    places = 4 - math.floor(math.log10(1.0 / share))
+    return _number(round(part.factor / share, places), 12)
 
 
 def _times(factor: float, of: ast.expr) -> ast.expr:
@@ -124,8 +122,8 @@ def _times(factor: float, of: ast.expr) -> ast.expr:
     return ast.UnaryOp(ast.USub(), of) if factor == -1.0 else ast.BinOp(_number(factor), ast.Mult(), of)
 
 
-def _number(value: float, digits: int = 0) -> ast.expr:
-    number = ast.Name(f"{abs(value):.{digits or DIGITS}g}")
+def _number(value: float, digits: int = 4) -> ast.expr:
+    number = ast.Name(f"{abs(value):.{digits}g}")
     return ast.UnaryOp(ast.USub(), number) if value < 0 else number
 
 

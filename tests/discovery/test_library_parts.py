@@ -14,7 +14,6 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.searched import believed_structure
 from lacuna.discovery.efforts.places.opened import RIGID, opened
 from lacuna.discovery.explain import explain, write_amended
-from lacuna.discovery.law.law import own_values
 from lacuna.discovery.law.law_terms import evaluate
 from lacuna.runtime import Model
 
@@ -185,7 +184,7 @@ def test_a_force_factor_that_falls_with_the_way_is_one_law_of_one_parameter(
     result = explain(load(woofer(k="k*(1 - 2e4*flange.s^2)")))
     (finding,) = result.findings
     assert finding.ranked.attachment.location == "coil.k"
-    law, values = finding.ranked.attachment.law, own_values(finding.ranked.attachment, result.final.point)
+    law, values = finding.ranked.attachment.law, finding.ranked.attachment.own_values(result.final.point)
     (way,) = law.references()
     x = np.linspace(-0.9, 0.9, 50) * way.size
     path = {way.local: x, "time": x}

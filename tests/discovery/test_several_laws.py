@@ -27,7 +27,7 @@ from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import noise_of
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.law.empirical_law import fitted_law
-from lacuna.discovery.law.law import Law, own_values
+from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law_terms import Group
 from lacuna.discovery.law.together.pairs import Place, paired
 from lacuna.discovery.law.together.several import _is_of_form, _taken_out, finding, simplify
@@ -149,7 +149,7 @@ def test_a_term_that_stood_for_what_is_missing_elsewhere_goes(tmp_path: Path) ->
     )
     k = next(k for k, f in enumerate(search.findings) if f.ranked.attachment.location == "upper")
     ranked = search.findings[k].ranked
-    law, start = ranked.attachment.law, own_values(ranked.attachment, search.fit.point)
+    law, start = ranked.attachment.law, ranked.attachment.own_values(search.fit.point)
     richer = Law(law.site, (*law.groups, Group(("1",))))
     added = f"c_{len(richer.numbered())}"
     amendment, base = _taken_out(search, k)
