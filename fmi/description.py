@@ -120,7 +120,8 @@ def _units(root: ET.Element, variables: list[FmiVariable]) -> None:
         if any(e.denominator != 1 for e in parsed.exponents) or parsed.factor is None:
             continue
         powers = {b: str(int(e)) for b, e in zip(_BASE, parsed.exponents, strict=True) if e}
-        if turns := sum(power for symbol, power in factors_of(name) if symbol in _ANGLES):
+        turns = sum(power for symbol, power in factors_of(name) if symbol in _ANGLES)
+        if turns and turns.denominator == 1:
             powers["rad"] = str(turns)
         if parsed.factor != 1:
             powers["factor"] = _text(parsed.factor)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 import math
 
-from lacuna.units import factors_of, format_unit, parse_unit
+from lacuna.units import factors_of, format_unit, parse_unit, written
 
 ZERO_CELSIUS = 273.15  # K
 
@@ -54,7 +55,7 @@ def to_si(unit: str) -> tuple[float, str]:
     if [(symbol, power) for symbol, power in symbols if symbol != "1"] == [("min", -1)]:
         return 1 / 60, "Hz"  # in a head it is rpm, which it is as often as not: no angle by itself
     factor = 1.0
-    powers: dict[str, int] = {}
+    powers: dict[str, int | Fraction] = {}
     for symbol, power in symbols:
         scale, si = _atom(symbol)
         factor *= scale**power
@@ -65,7 +66,11 @@ def to_si(unit: str) -> tuple[float, str]:
 
 def _written(powers: dict[str, int]) -> str:
     above, below = (
-        [base if abs(p) == 1 else f"{base}{abs(p)}" for base, p in powers.items() if sign * p > 0 and base != "1"]
+        [
+            base if abs(p) == 1 else f"{base}{written(abs(p))}"
+            for base, p in powers.items()
+            if sign * p > 0 and base != "1"
+        ]
         for sign in (1, -1)
     )
     quotient = ".".join(below)

@@ -94,7 +94,8 @@ _PREFIXES = {
 }  # fmt: skip
 
 _UNPREFIXED = ("1", "%", "kg", "min", "h", "d", "deg", "degC", "rev", "rpm", "ppm", "rad", "sr")
-_FACTOR = re.compile(r"([A-Za-z%]+|1)([+-]?[0-9]+)?")
+_FACTOR = re.compile(r"([A-Za-z%]+|1)([+-]?[0-9]+(?:\.[0-9]+)?)?")
+_POINT = re.compile(r"\.(?![0-9])")  # of a product; before a digit it is one of a power
 
 
 def symbols() -> list[str]:
@@ -111,24 +112,21 @@ def parse_unit(text: str) -> Unit:
     return replace(result, text=text)
 
 
-def factors_of(text: str) -> list[tuple[str, int]]:
-    """The symbols of a unit with their powers, those below the stroke negative. Raises ValueError as parse_unit does,
-    but for symbols that are not known."""
-    numerator, slash, denominator = text.strip().partition("/")
-    if "/" in denominator:
-        raise ValueError(f"{text!r} has two '/': put the denominator in parentheses, as in W/(m2.K)")
-    below = [(symbol, -power) for symbol, power in _group(denominator, text)] if slash else []
-    return _group(numerator, text) + below
+def factors_of(text: str) -> list[tuple[str, int | Fraction]]:
+    """The symbols of a unit with their powers, those below a stroke negative: of several strokes as they are read in
+    practice, from left to right. Raises ValueError as parse_unit does, but for symbols that are not known."""
+    numerator, *denominators = text.strip().split("/")
+    return _group(numerator, text) + [(s, -power) for part in denominators for s, power in _group(part, text)]
 
 
-def _group(part: str, whole: str) -> list[tuple[str, int]]:
+def _group(part: str, whole: str) -> list[tuple[str, int | Fraction]]:
     inner = part.strip()
     if inner.startswith("(") and inner.endswith(")"):
         inner = inner[1:-1]
-    found = [_FACTOR.fullmatch(factor.strip()) for factor in inner.split(".")]
+    found = [_FACTOR.fullmatch(factor.strip()) for factor in _POINT.split(inner)]
     if not all(found):
         raise ValueError(f"{whole!r} is no unit: write products as N.m, quotients as rad/s, powers as m2")
-    return [(f[1], int(f[2] or 1)) for f in found if f]
+    return [(f[1], _whole(Fraction(f[2] or 1))) for f in found if f]
 
 
 def _symbol(symbol: str, whole: str) -> Unit:
@@ -160,10 +158,16 @@ def format_unit(unit: Unit) -> str:
     return text
 
 
+def written(power: int | Fraction) -> str:
+    """A power as a unit has it: a decimal where it is one."""
+    decimal = f"{float(power):.6g}"
+    return decimal if Fraction(decimal) == power else f"({power})"
+
+
 def _base_text(exponents: Exponents) -> str:
     def group(sign: int) -> list[str]:
         powers = [(b, sign * e) for b, e in zip(_BASE, exponents, strict=True) if sign * e > 0]
-        return [b if e == 1 else f"{b}{e}" if e.denominator == 1 else f"{b}({e})" for b, e in powers]
+        return [b if e == 1 else f"{b}{written(e)}" for b, e in powers]
 
     above, below = ".".join(group(1)) or "1", ".".join(group(-1))
     if not below:

@@ -62,11 +62,18 @@ class _Check:
         self.units: dict[str, Finding] = {}
         self._names: dict[Expr, set[str]] = {}  # of the variables in sides of equations
         for v in model.variables.values():
+            self._strokes(v)
             try:
                 self.units[v.name] = of_variable(v.unit, v.type, v.variability)
             except ValueError as reason:
                 self.units[v.name] = UNKNOWN
                 self._note(Diagnostic("U005", f"{v.name}: {reason}", v.span, 'such as "N.m.s/rad"'))
+
+    def _strokes(self, v: flat.Variable) -> None:
+        if v.unit.count("/") > 1:
+            message = f"{v.name}: {v.unit!r} has several '/', and is read from left to right"
+            hint = "one is what the language has (19.1): put the denominator in parentheses, as in W/(m2.K)"
+            self._note(Diagnostic("U006", message, v.span, hint, severity="warning"))
 
     def run(self, arguments: Iterable[Argument]) -> list[Diagnostic]:
         self._infer_unknown()

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import chain
 
 import numpy as np
@@ -149,8 +150,7 @@ def _grown(
 ) -> Fit | None:  # fmt: skip
     found = None
     for share in shares:
-        found = fit(machine, cut(case, share).fit, noise, free, fixed, start=start)
-        start = found.point if found is not None else start
+        found = fit(machine, cut(case, share).fit, noise, free, fixed, start=found.point if found else start)
     return found
 
 
@@ -194,13 +194,14 @@ def _better(one: Fit | None, other: Fit | None) -> Fit | None:
 
 
 def _nearer_belief(found: Fit) -> Fit:
-    """A fit that leaves noise, begun anew with the parameters that left belief put back there: a dip is no finding."""
-    free, recordings = found.estimate.free, found.machine.case.fit
-    outside = outside_belief(found)
-    if not outside or not nearly_noise(found):
+    """A fit that leaves noise, begun anew from belief and the best of the rest: a dip is no finding."""
+    free = found.estimate.free
+    if not (outside := outside_belief(found)) or not nearly_noise(found):
         return found
-    start = found.point | {f.name: f.centre for f in free if f.name in outside}
-    other = fit(found.machine, recordings, found.noise, free, found.fixed, start=start)
+    fitted = partial(fit, found.machine, found.machine.case.fit, found.noise)
+    there = found.fixed | {f.name: f.centre for f in free if f.name in outside}
+    held = fitted([f for f in free if f.name not in outside], there, start=found.point)
+    other = held and fitted(free, found.fixed, start=held.point)
     return _better(found, other)
 
 

@@ -10,6 +10,17 @@ import re
 
 _SAID = {"dry": "sign", "onset": "delay"}  # functions that differ in how they are simulated only
 _LINEAR = ("lag", "delay", "onset", "swing")  # in their first argument
+_X = r"(?P<x>\((?:[^()]|\([^()]*\))*\))"  # what is made dimensionless
+_PLAINER = (  # what is smooth for a fit, as it is thought of: (of a term, as it is said)
+    (rf"abs\({_X} - (?P<q>\w+)\) \+ (?P=x) - (?P=q)", r"2*max(0, \g<x> - \g<q>)"),
+    (rf"abs\(-{_X} - (?P<q>\w+)\) - (?P=x) - (?P=q)", r"2*max(0, -\g<x> - \g<q>)"),
+    (rf"{_X} \+ (?P<q>\w+) - abs\((?P=x) - (?P=q)\)", r"2*min(\g<x>, \g<q>)"),
+    (
+        rf"{_X} - 0\.5\*abs\((?P=x) \+ (?P<q>\w+)\) \+ 0\.5\*abs\((?P=x) - (?P=q)\)",
+        r"\g<x> - max(-\g<q>, min(\g<x>, \g<q>))",
+    ),
+    (rf"abs\({_X} \+ (?P<q>\w+)\) - abs\((?P=x) - (?P=q)\)", r"2*max(-\g<q>, min(\g<x>, \g<q>))"),
+)
 
 
 @dataclass(frozen=True)
@@ -30,6 +41,8 @@ class _Scaled:
 
 def unscaled(text: str, values: Mapping[str, float]) -> str:
     """A term in the names of its component, with the numbers that some of them stand for in place of these."""
+    for of_term, plainer in _PLAINER:
+        text = re.sub(of_term, plainer, text)
     said = ast.unparse(_read(ast.parse(text.replace("^", "**"), mode="eval").body, values).node())
     return re.sub(r" (\*\*?|/) ", lambda found: found[1].replace("**", "^"), said)
 

@@ -153,6 +153,7 @@ def test_every_term_is_said_without_the_sizes_of_its_variables() -> None:
     sizes = {v.local: v.size for v in kept}
     ranges = {n: (float(c.min()) / sizes[n], float(c.max()) / sizes[n]) for n, c in paths.items() if n != "time"}
     place = Site(Place("equation", "C1*der(T1) = P - q"), "T1", "W", tuple(kept))
+    extremes = {"max": np.maximum, "min": np.minimum}
     for group in groups(kept, ranges, 0.05, 10.0):
         law = Law(place, (group,))
         start = {n: s.start for n, s in law.shapes().items()} | {c: 1.0 for c, _, _ in law.numbered()}
@@ -161,7 +162,7 @@ def test_every_term_is_said_without_the_sizes_of_its_variables() -> None:
             assert "_ref" not in said
             known = text.format(**{s: repr(start[n]) for s, n in shapes.items()})
             if not re.search(r"delay|onset|sin|cos", known):  # of many turns four digits are not enough to compare
-                course, expected = (evaluate(e, paths, sizes) for e in (said, known))
+                course, expected = (evaluate(e, extremes | paths, sizes) for e in (said, known))
                 np.testing.assert_allclose(course, expected, rtol=2e-3, atol=2e-3, err_msg=said)
 
 
@@ -177,6 +178,15 @@ def test_every_term_is_said_without_the_sizes_of_its_variables() -> None:
         ("c*(w/w_ref)/(1 + q*abs((w/w_ref)))", "-0.025*w/(1 + 0.009305*abs(w))"),
         ("c*abs((w/w_ref))^p", "-25*abs(w)^(-0.5)"),
         ("c*1", "-2.5"),
+        ("c*(abs((T/T_ref) - q) + (T/T_ref) - q)", "-0.01667*max(0, T - 279.15)"),
+        ("c*(abs(-(x/x_ref) - q) - (x/x_ref) - q)", "-250*max(0, -x - 0.01861)"),
+        ("c*((x/x_ref) + q - abs((x/x_ref) - q))", "-250*min(x, 0.01861)"),
+        (
+            "c*((x/x_ref) - 0.5*abs((x/x_ref) + q) + 0.5*abs((x/x_ref) - q))",
+            "-125*(x - max(-0.01861, min(x, 0.01861)))",
+        ),
+        ("c*(abs((x/x_ref) + q) - abs((x/x_ref) - q))", "-250*max(-0.01861, min(x, 0.01861))"),
+        ("c*abs(abs((x/x_ref) - q) + (x/x_ref) - q)^2", "-2.5e+04*abs(max(0, x - 0.01861))^2"),
     ],
 )
 def test_a_term_is_said_in_units_of_its_variables(text: str, said: str) -> None:

@@ -35,6 +35,9 @@ from tests.codegen.front.helpers import flatten_text
         ("kW.h", "J", 3.6e6),
         ("min", "s", 60),
         ("Pa", "N/m2", 1),
+        ("m3/s/m0.5", "m2.5/s", 1),
+        ("W/m2/K", "W/(m2.K)", 1),
+        ("V/Hz0.5", "V.s0.5", 1),
     ],
 )
 def test_unit_strings(text: str, same_as: str, factor: float) -> None:
@@ -43,7 +46,7 @@ def test_unit_strings(text: str, same_as: str, factor: float) -> None:
     assert unit.factor == pytest.approx(factor * reference.factor, rel=1e-12)
 
 
-@pytest.mark.parametrize("text", ["furlong", "m//s", "N m", "m/s/s", "2m", "m^2", "kkg", ""])
+@pytest.mark.parametrize("text", ["furlong", "m//s", "N m", "m/(s/s)", "2m", "m^2", "kkg", ""])
 def test_what_is_no_unit(text: str) -> None:
     with pytest.raises(ValueError, match=r".+"):
         parse_unit(text)
@@ -269,3 +272,8 @@ end M;""",
     )
     assert model.warnings == []
     assert [n for n in model.variables if n.startswith("w")] == ["w0", "w[1]", "w[2]"]
+
+
+def test_several_strokes_are_read_from_left_to_right_and_said(tmp_path: Path) -> None:
+    model = flatten_text(tmp_path, 'model M\n  parameter Real h(unit = "W/m2/K") = 5;\nend M;')
+    assert [(f.code, f.severity) for f in model.warnings] == [("U006", "warning")]
