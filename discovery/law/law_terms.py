@@ -14,7 +14,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
 import re
+from types import CodeType
 
 import numpy as np
 
@@ -103,7 +105,7 @@ class Group:
     held: bool = False
     seen: tuple[str, ...] = ()
 
-    @property
+    @cached_property
     def kind(self) -> tuple[str, ...]:
         """Its texts, but for how far apart what is late is kept: that follows how late it is."""
         return tuple(re.sub(r"\b(delay|onset)\(([^,]+, [^,)]+), [^,)]+\)", r"\1(\2)", text) for text in self.texts)
@@ -126,8 +128,13 @@ def evaluate(text: str, trajectory: Mapping[str, np.ndarray], sizes: Mapping[str
     names["onset"] = lambda values, late, apart: (
         np.interp(time - late, time, values) * np.clip((time - time[0] - late) / apart + 0.5, 0, 1)
     )
-    value = eval(text.replace("^", "**"), {"__builtins__": {}}, names)
+    value = eval(_compiled(text), {"__builtins__": {}}, names)
     return np.broadcast_to(np.asarray(value, float), trajectory["time"].shape)
+
+
+@lru_cache(maxsize=4096)
+def _compiled(text: str) -> CodeType:
+    return compile(text.replace("^", "**"), "<term>", "eval")
 
 
 def lagged(time: np.ndarray, values: np.ndarray, tau: complex) -> np.ndarray:
