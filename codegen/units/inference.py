@@ -202,7 +202,7 @@ def _has_written_factor(e: Expr) -> bool:
         return any(_is_scale(a) or _has_written_factor(a) for a in e.args)
     if e.op in ("if", "smooth"):  # a condition, an order
         return any(map(_has_written_factor, e.args[1:]))
-    if e.op == "annotated":
+    if e.op in ("annotated", "^") or (e.op == "call" and str(e.value) in ("sqrt", "abs")):
         return _has_written_factor(e.args[0])
     return e.op in ("+", "-", "neg", "min", "max", "noEvent", "pre") and any(map(_has_written_factor, e.args))
 

@@ -2,13 +2,27 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
+
+import numpy as np
 
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.library.search_path import search_path
+from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.places import read as structure_of
+from lacuna.discovery.efforts.find import places_of
+from lacuna.discovery.efforts.laws.screening import proposals
+from lacuna.discovery.efforts.located import Locator
+from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.efforts.places.place import Place, told_apart
 from lacuna.discovery.efforts.places.sites import Site
+from lacuna.discovery.law.empirical_law import fitted_law
+from lacuna.discovery.law.law import Law
+from lacuna.discovery.law.law_terms import Group, Shape
+from lacuna.discovery.steps import fitted
+
+from .recorded import concealed, record
 
 
 def place(location: str, *sites: Site) -> Place:
@@ -64,3 +78,62 @@ def test_flanges_that_turn_as_one_are_one_shaft_whatever_class_says_so(tmp_path:
     (shaft,) = structure_of(Library(search_path([tmp_path])), str(tmp_path / "Rotor.mo")).shafts
     assert shaft.location == "disc"
     assert {"disc.flange_a", "disc.flange_b", "left.flange_b", "right.flange_a"} <= set(shaft.members)
+
+
+MAGNET = """model Magnet "What pulls a mass in a damper"
+  parameter Real m(unit="kg", min=0) = 0.5;
+  parameter Real b(unit="N.s/m", min=0) = 2;
+  parameter Real k(unit="N/A") = 3;
+  input Real i(unit="A");
+  Real v(unit="m/s", start=0, fixed=true);
+  Real F(unit="N");
+equation
+  F = k*i;
+  m*der(v) = F - b*v;
+end Magnet;
+"""
+LATE = """model Magnet "Whose pull is late: eddy currents"
+  input Real i;
+  Real v(start=0, fixed=true);
+  Real F(start=0, fixed=true);
+equation
+  0.05*der(F) = 3*i - F;
+  0.5*der(v) = F - 2*v;
+end Magnet;
+"""
+CASE = """title = "Magnet"
+model = "Magnet.mo"
+source = "synthetic"
+[signals.i]
+role = "input"
+variable = "i"
+unit = "A"
+[signals.v]
+role = "output"
+variable = "v"
+unit = "m/s"
+noise_std = 0.002
+[recordings]
+fit = ["r0.csv"]
+validate = ["r1.csv"]
+"""
+
+
+def test_a_state_of_what_was_added_before_gives_no_place_its_name(tmp_path: Path) -> None:
+    """What is off in the pull is off in the law of a late pull first: `law_v` is no place of the machine."""
+    folder, machine = concealed(tmp_path, "Magnet", LATE, MAGNET, CASE)
+    time, dice = np.linspace(0, 5, 1001), np.random.default_rng(5)
+    for n in range(2):
+        current = np.sign(np.sin((7.0 + n) * time)) * (1 + 0.5 * np.sin(time))
+        record(folder / f"r{n}.csv", machine, time, {"i": current}, {"v": "v"}, {"v": 0.002 * dice.normal(size=1001)})
+    case = load(folder)
+    told = fitted(case, lambda text: None)
+    locator = Locator(case, opened(case, told.amendment, case.library(), ["m", "b", "k"]), told.base)
+    site = next(s for s in locator.ranked() if s.location == "v")
+    own = next(proposals(locator, site, locator.guided(site), 3))[0].law.site
+    pull = next(v.scaled for v in own.variables if v.name == "F")
+    law = Law(own, (Group((f"({pull} - lag({pull}, {{tau}}))",), (Shape("tau", "s", 0.05, 0.005, 0.5),)),))
+    late = fitted_law(case, told.amendment, told.base, law, {"c_1": -1.0, "tau_1": 0.05})
+    beside = places_of(case, replace(told.amendment, attachments=[late.attachment]), late.fit, case.library())
+    locations = [s.location for s in beside.sites]
+    assert "v" in locations and not [name for name in locations if name.startswith("law_")]

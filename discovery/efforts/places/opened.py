@@ -119,6 +119,9 @@ class Opened:
     def _place(self, group: list[int], effect: np.ndarray) -> Place:
         states = self.linear.states
         strength = np.sqrt(np.mean(effect[:, :, group[0]] ** 2, axis=0))
+        added = tuple(f"{a.component}." for a in self.machine.amendment.attachments)
+        if not all(s.startswith(added) for s, size in zip(states, strength, strict=False) if size > 0):
+            strength[: len(states)] *= [not s.startswith(added) for s in states]  # which give no place its name
         changed = states if strength[: len(states)].max(initial=0.0) > 0 else list(self.machine.columns.values())
         name = changed[int(np.argmax(strength[: len(states)] if changed is states else strength[len(states) :]))]
         location = name.rpartition(".")[0] or name

@@ -127,6 +127,8 @@ def test_unsound_equations_show_both_sides(tmp_path: Path, equation: str, code: 
         "u = R*i + 0.5*w",
         "u = -(2*time)",
         "u = smooth(0, if i > 0 then 3*i else 0)",
+        "u = R*sqrt(abs(i)/35)",
+        "tau = k*(i/3)^2",
     ],
 )
 def test_a_written_factor_may_have_a_unit(tmp_path: Path, equation: str) -> None:
