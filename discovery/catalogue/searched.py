@@ -41,18 +41,24 @@ def believed_structure(case: Case, library: Library) -> Structure:
 
 def _chosen(structure: Structure, named: Iterable[str], search_path: Sequence[str] | None) -> tuple[str, ...]:
     """Of variables `named` as states those that are none where the model says nothing of it, and can be: the position
-    of a mass whose spring prefers its own deflection."""
-    believed, _ = translate(str(write_source(Amendment(structure))), search_path=search_path)
-    states, known = set(believed.system.states), _aliases(believed)
-    variables = (n for n in named if n in believed.declared.variables)
-    wanted = tuple(n for n in variables if not {n, known.get(n, (n, 1))[0]} & states)
-    if not wanted:
-        return ()
-    try:
-        translate(str(write_source(Amendment(replace(structure, states=wanted)))), search_path=search_path)
-    except Diagnostic:
-        return ()
-    return wanted
+    of a mass whose spring prefers its own deflection, or what is none any more where that one is."""
+    chosen: tuple[str, ...] = ()
+    wanted: tuple[str, ...] = ()
+    while True:
+        try:
+            source = str(write_source(Amendment(replace(structure, states=wanted))))
+            believed, _ = translate(source, search_path=search_path)
+        except Diagnostic:
+            if not wanted:
+                raise
+            return chosen
+        chosen, known = wanted, _aliases(believed)
+        states = {s for s in believed.system.states if not s.startswith("der(")}  # a rate has no start of its own
+        variables = (n for n in named if n in believed.declared.variables and n not in wanted)
+        none_yet = tuple(n for n in variables if not {n, known.get(n, (n, 1))[0]} & states)
+        if not none_yet:
+            return chosen
+        wanted = (*wanted, *none_yet)
 
 
 def believed_aliases(amendment: Amendment, search_path: Sequence[str] | None) -> Mapping[str, tuple[str, int]]:
