@@ -118,35 +118,42 @@ def test_of_starts_that_miss_alike_the_one_nearer_to_belief_is_taken(tmp_path: P
     assert nearest(case, base, candidate, far, near) is near
 
 
-GEARED = """model Geared "Two inertias on a shaft, whose spring and bearing prefer their own angles"
-  parameter Real J1(unit="kg.m2") = 2, J2(unit="kg.m2") = 1, c(unit="N.m/rad") = 50, d(unit="N.m.s/rad") = 1;
+GEARED = """model Geared "Two inertias, whose springs and bearings prefer their own angles"
+  import Modelica.Mechanics.Rotational.{Components, Sources};
   input Real tau(unit="N.m");
-  Real phi1(unit="rad", start=0, fixed=true), w1(unit="rad/s", start=0, fixed=true);
-  Real phi2(unit="rad", start=0, fixed=true), w2(unit="rad/s", start=0, fixed=true);
-  Real twist(unit="rad", stateSelect=StateSelect.prefer), rate(unit="rad/s", stateSelect=StateSelect.prefer);
-  Real turn(unit="rad", stateSelect=StateSelect.prefer), spin(unit="rad/s", stateSelect=StateSelect.prefer);
+  Sources.Torque drive;
+  Components.Inertia rotor(J=2, phi(start=0, fixed=true), w(start=0, fixed=true));
+  Components.Inertia generator(J=1, phi(start=0, fixed=true), w(start=0, fixed=true));
+  Components.SpringDamper shaft(c=50, d=1);
+  Components.IdealGear gear(ratio=0.1);
+  Components.Damper bearing(d=1);
+  Components.Fixed wall;
 equation
-  w1 = der(phi1);
-  w2 = der(phi2);
-  twist = phi1 - phi2;
-  rate = der(twist);
-  turn = -phi2;
-  spin = der(turn);
-  J1*der(w1) = tau - c*twist - d*rate;
-  J2*der(w2) = c*twist + d*rate + d*spin;
+  drive.tau = tau;
+  connect(drive.flange, rotor.flange_a);
+  connect(rotor.flange_b, shaft.flange_a);
+  connect(shaft.flange_b, gear.flange_a);
+  connect(gear.flange_b, generator.flange_a);
+  connect(generator.flange_b, bearing.flange_a);
+  connect(bearing.flange_b, wall.flange);
 end Geared;
 """
 
 
-def test_all_that_a_case_gives_the_starts_of_are_states_together(folder: Path) -> None:
-    """Where the first ones are, others come to be rates, or no states any more."""
+def test_all_that_a_case_gives_the_starts_of_are_states_together(folder: Path, shared: Path) -> None:
+    """Where the first ones are, others come to be rates that have no start of their own."""
     (folder / "Geared.mo").write_text(GEARED)
-    names = ("phi1", "w1", "phi2", "w2")
-    starts = "\n".join(f"{n} = 0.0" for n in names)
-    text = CASE.format(name="s").replace("Held.mo", "Geared.mo").replace('s = "unknown"', starts)
-    text = text.replace('variable = "s"', 'variable = "phi2"').replace('unit = "m"', 'unit = "rad"')
-    (folder / "case.toml").write_text(
-        text.replace('variable = "F"', 'variable = "tau"').replace('unit = "N"', 'unit = "N.m"')
-    )
-    _, machine = opened(load(folder), Library([str(folder)]))
+    names = ("rotor.phi", "rotor.w", "generator.phi", "generator.w")
+    text = CASE.format(name="s").replace('s = "unknown"', "\n".join(f'"{n}" = 0.0' for n in names))
+    for old, new in (
+        ("Held", "Geared"),
+        ('"s"', '"generator.phi"'),
+        ('"m"', '"rad"'),
+        ('"F"', '"tau"'),
+        ('"N"', '"N.m"'),
+    ):
+        text = text.replace(old, new)
+    (folder / "case.toml").write_text(f'libraries = ["{shared / "msl"}"]\n{text}')
+    case = load(folder)
+    _, machine = opened(case, case.library())
     assert set(names) <= machine.model.states.keys()
