@@ -64,7 +64,7 @@ def to_si(unit: str) -> tuple[float, str]:
     return factor, _written(powers)
 
 
-def _written(powers: dict[str, int]) -> str:
+def _written(powers: dict[str, int | Fraction]) -> str:
     above, below = (
         [
             base if abs(p) == 1 else f"{base}{written(abs(p))}"
