@@ -67,7 +67,7 @@ def to_si(unit: str) -> tuple[float, str]:
 def _written(powers: dict[str, int | Fraction]) -> str:
     above, below = (
         [
-            base if abs(p) == 1 else f"{base}{written(abs(p))}"
+            base if abs(p) == 1 else f"{base}{written(sign * p)}"
             for base, p in powers.items()
             if sign * p > 0 and base != "1"
         ]
