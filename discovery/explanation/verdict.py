@@ -26,6 +26,8 @@ from lacuna.discovery.fit.evidence import (
     whiteness,
     within_instruments,
 )
+from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.solver.free import pulls
 from lacuna.discovery.law.law import law_at
 from lacuna.discovery.naming.comparison import TIE, Ranked, price, score
 from lacuna.discovery.naming.foretold import foretold
@@ -78,8 +80,15 @@ def _is_colour(result: Explanation) -> bool:
     case, base = result.case, (replace(result.amendment, attachments=[]), result.base)
     if not result.lead.direct or not (within_instruments(result.base) or only_instruments(case, *base)):
         return False
-    picked = sum(f.ranked.candidate.pick for f in result.findings)
-    return gained(case, base, (result.amendment, result.final)) < NATS + picked
+    enough = NATS + sum(f.ranked.candidate.pick for f in result.findings)
+    if _disbelief(result.base) - _disbelief(result.final) >= enough:  # to first order it might return at no price
+        return False
+    return gained(case, base, (result.amendment, result.final)) < enough
+
+
+def _disbelief(fit: Fit) -> float:
+    """Nats by which a fit's parameters speak against it, that are not where they are believed to be."""
+    return 0.5 * float(np.sum(pulls(fit.estimate.free, fit.estimate.values) ** 2))
 
 
 def _holds(result: Explanation) -> bool:

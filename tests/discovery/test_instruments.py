@@ -4,17 +4,21 @@ that anybody gave, alone and with a leak that goes as a square."""
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.signal import lfilter
 
 from lacuna.discovery.case.cases import load
+from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.instruments import _worst, colour_of, only_instruments
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.explain import explain
+from lacuna.discovery.explanation import verdict
 from lacuna.discovery.fit.evidence import is_noise
+from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.steps import fitted
 
 from .recorded import record, truth
@@ -93,3 +97,23 @@ def test_a_given_level_is_not_exceeded(tmp_path: Path, level: float) -> None:
     (folder / "case.toml").write_text(toml, encoding="utf-8")
     base = fitted(load(folder), lambda text: None)
     assert not only_instruments(base.case, base.amendment, base.base)
+
+
+@pytest.mark.parametrize(("believed_fit", "colour"), [(1.05, True), (5.0, False)])
+def test_colour_is_no_answer_where_only_parameters_far_from_belief_leave_it(
+    monkeypatch: pytest.MonkeyPatch, believed_fit: float, colour: bool
+) -> None:
+    """To first order about such a fit, parameters may seem to come back at no price: 19 nats for the colour, when they
+    alone speak against it by 800 (a dead time that five parameters stand for, all by tens of sigmas)."""
+    free = [Free("J", 1.0, 0.1, sigma=0.1)]
+
+    def fit(value: float) -> SimpleNamespace:
+        return SimpleNamespace(estimate=SimpleNamespace(free=free, values=np.array([value])), level={"w": 1.2})
+
+    finding = SimpleNamespace(ranked=SimpleNamespace(candidate=SimpleNamespace(pick=0.0)))
+    result = SimpleNamespace(
+        case=None, amendment=Amendment(None), base=fit(believed_fit), final=fit(1.0), findings=[finding],
+        lead=SimpleNamespace(direct=True),
+    )  # fmt: skip
+    monkeypatch.setattr(verdict, "gained", lambda *models: -19.0)
+    assert verdict._is_colour(result) == colour
