@@ -73,7 +73,7 @@ class _Check:
         if v.unit.count("/") > 1:
             message = f"{v.name}: {v.unit!r} has several '/', and is read from left to right"
             hint = "one is what the language has (19.1): put the denominator in parentheses, as in W/(m2.K)"
-            self._note(Diagnostic("U006", message, v.span, hint, severity="warning"))
+            self._note(Diagnostic("W014", message, v.span, hint, severity="warning"))
 
     def run(self, arguments: Iterable[Argument]) -> list[Diagnostic]:
         self._infer_unknown()

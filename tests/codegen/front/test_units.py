@@ -278,4 +278,4 @@ end M;""",
 
 def test_several_strokes_are_read_from_left_to_right_and_said(tmp_path: Path) -> None:
     model = flatten_text(tmp_path, 'model M\n  parameter Real h(unit = "W/m2/K") = 5;\nend M;')
-    assert [(f.code, f.severity) for f in model.warnings] == [("U006", "warning")]
+    assert [(f.code, f.severity) for f in model.warnings] == [("W014", "warning")]
