@@ -70,6 +70,7 @@ class _Check:
                 self._note(Diagnostic("U005", f"{v.name}: {reason}", v.span, 'such as "N.m.s/rad"'))
 
     def _strokes(self, v: flat.Variable) -> None:
+        """A warning where a declared unit has more than one stroke."""
         if v.unit.count("/") > 1:
             message = f"{v.name}: {v.unit!r} has several '/', and is read from left to right"
             hint = "one is what the language has (19.1): put the denominator in parentheses, as in W/(m2.K)"

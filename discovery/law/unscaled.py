@@ -118,11 +118,10 @@ def _common(parts: Sequence[_Scaled]) -> float:
 
 
 def _part(part: _Scaled, share: float) -> ast.expr:
-    """A part over what is taken out; of a number as many places as what it is compared with has."""
+    """A part over what is taken out; a number that is compared with others has a digit more than one that scales."""
     if part.of is not None:
         return replace(part, factor=part.sign if abs(part.factor) == share else part.factor / share).node()
-    places = 4 - math.floor(math.log10(1.0 / share))
-    return _number(round(part.factor / share, places), 12)
+    return _number(part.factor / share, 5)
 
 
 def _times(factor: float, of: ast.expr) -> ast.expr:

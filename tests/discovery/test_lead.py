@@ -31,15 +31,20 @@ def cogging_case(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return conceal(tmp_path_factory.mktemp("cogging"), BELIEVED | {"R": 3.45}, cogging=cogging)
 
 
+def tracked(folder: Path) -> tuple[Case, Machine]:
+    """A case, and its believed machine with a tracker on its shaft."""
+    case = load(folder)
+    structure = read(Library(), case.model)
+    shafts = trackable(case, Machine(case, Amendment(structure)).model, structure)[:1]
+    return case, Machine(case, Amendment(structure, trackers=shafts))
+
+
 @pytest.mark.parametrize(("shares", "held", "seen"), [(STIFFLY, 1, True), (FALLING, HELD, False)])
 def test_the_periods_of_a_strong_cogging_show_where_the_shaft_is_held_stiffly(
     cogging_case: Path, shares: tuple[float, ...], held: int, seen: bool
 ) -> None:
     """Its wells, amplitude times periods, are 0.096 N.m/rad deep; a tracker of J w^2 has to be stiffer than they."""
-    case = load(cogging_case)
-    structure = read(Library(), case.model)
-    shafts = trackable(case, Machine(case, Amendment(structure)).model, structure)[:1]
-    machine = Machine(case, Amendment(structure, trackers=shafts))
+    case, machine = tracked(cogging_case)
     lead = Lead(falling_bandwidths(case, machine, shares), held=held)
     assert (BELIEVED["J"] * lead.bandwidths[held] ** 2 > 0.096) == seen
     free, fixed = believed(case, machine)
@@ -52,10 +57,7 @@ def test_the_periods_of_a_strong_cogging_show_where_the_shaft_is_held_stiffly(
 
 def test_parameters_stay_near_belief_while_a_shaft_is_held(cogging_case: Path) -> None:
     """A machine that says nothing follows its held shaft best: what is missing would end in absurd parameters."""
-    case = load(cogging_case)
-    structure = read(Library(), case.model)
-    shafts = trackable(case, Machine(case, Amendment(structure)).model, structure)[:1]
-    machine = Machine(case, Amendment(structure, trackers=shafts))
+    case, machine = tracked(cogging_case)
     free, fixed = believed(case, machine)
     own = next(f for f in free if f.name == "R")
     base = linearised(machine, case.fit, noise_of(case), free, fixed, {})
@@ -97,10 +99,7 @@ def test_a_fit_that_grows_is_held_where_something_is_seen_to_be_missing(
 
 def test_a_fit_of_a_held_shaft_has_errors(cogging_case: Path) -> None:
     """Its Jacobian is of the recorded outputs: the motion that the shaft is held to is no recording of its own."""
-    case = load(cogging_case)
-    structure = read(Library(), case.model)
-    shafts = trackable(case, Machine(case, Amendment(structure)).model, structure)[:1]
-    machine = Machine(case, Amendment(structure, trackers=shafts))
+    case, machine = tracked(cogging_case)
     free, fixed = believed(case, machine)
     base = fit(machine, case.fit, noise_of(case), free, fixed, stages=1, iterations=0)
     held = leading._tracked(base, falling_bandwidths(case, machine)[0])

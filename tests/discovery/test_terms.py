@@ -178,6 +178,7 @@ def test_every_term_is_said_without_the_sizes_of_its_variables() -> None:
         ("c*(w/w_ref)/(1 + q*abs((w/w_ref)))", "-0.025*w/(1 + 0.009305*abs(w))"),
         ("c*abs((w/w_ref))^p", "-25*abs(w)^(-0.5)"),
         ("c*1", "-2.5"),
+        ("c*(time - 0.0000123)", "-2.5*(time - 1.23e-05)"),
         ("c*(abs((T/T_ref) - q) + (T/T_ref) - q)", "-0.01667*max(0, T - 279.15)"),
         ("c*(abs(-(x/x_ref) - q) - (x/x_ref) - q)", "-250*max(0, -x - 0.01861)"),
         ("c*((x/x_ref) + q - abs((x/x_ref) - q))", "-250*min(x, 0.01861)"),

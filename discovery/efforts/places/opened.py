@@ -60,6 +60,11 @@ class Opened:
         names = [n for n, v in self.believed.declared.variables.items() if v.hidden]
         return frozenset([*names, *(f"der({n})" for n in names)])
 
+    @cached_property
+    def _own(self) -> np.ndarray:
+        """(x,) which states are the believed model's."""
+        return np.array([not self.machine.amendment.adds(s) for s in self.linear.states])
+
     def places(self, along: Sequence[Along]) -> list[Place]:
         """Places that have an effect along these recordings, those alike put together: by what they do where both do
         something (what varies as a coefficient of a force that is off does nothing). First of those alike the one that
@@ -119,9 +124,9 @@ class Opened:
     def _place(self, group: list[int], effect: np.ndarray) -> Place:
         states = self.linear.states
         strength = np.sqrt(np.mean(effect[:, :, group[0]] ** 2, axis=0))
-        added = tuple(f"{a.component}." for a in self.machine.amendment.attachments)
-        if not all(s.startswith(added) for s, size in zip(states, strength, strict=False) if size > 0):
-            strength[: len(states)] *= [not s.startswith(added) for s in states]  # which give no place its name
+        believed = strength[: len(states)] * self._own
+        if believed.any():  # states of what was added give no place its name
+            strength[: len(states)] = believed
         changed = states if strength[: len(states)].max(initial=0.0) > 0 else list(self.machine.columns.values())
         name = changed[int(np.argmax(strength[: len(states)] if changed is states else strength[len(states) :]))]
         location = name.rpartition(".")[0] or name
