@@ -18,8 +18,16 @@ from lacuna.discovery.efforts.find import WORTH, Found, add_laws, alike_first, p
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.fit.evidence import FAR, excess, like_noise, nearly_noise, within_instruments
 from lacuna.discovery.law.beyond import margin
-from lacuna.discovery.law.together.pairs import Place, is_family, is_short, paired, two_places
-from lacuna.discovery.law.together.several import among_sensors, apart, go_on, simplify, take_if_less
+from lacuna.discovery.law.together.pairs import Place, is_family, paired, two_places
+from lacuna.discovery.law.together.several import (
+    among_sensors,
+    apart,
+    find_long_anew,
+    go_on,
+    is_short,
+    simplify,
+    take_if_less,
+)
 from lacuna.discovery.law.together.unheard import beside_error, to_be_left_out
 from lacuna.discovery.naming.comparison import (
     MIN_GAIN,
@@ -88,7 +96,7 @@ def explain_open(
     if _beside_error(search, unbegun, found, pair, library, progress):
         return
     told = pair is not None and pair[1].site.explains > WORTH
-    two = _two(unbegun, found, pair, progress) if told else None
+    two = _two(unbegun, found, pair, library, progress) if told else None
     short = two is not None and within_instruments(two.fit) and all(map(is_short, two.findings))
     if not (short and take_if_less(search, two, unbegun.fit)):
         _one_by_one(search, unbegun, found, None if told else pair, library, progress)
@@ -108,7 +116,7 @@ def _one_by_one(
     physics = any(not f.ranked.attachment.variable for f in search.findings) and not search.amendment.trackers
     long = taken and not found.short and bool(found.single)
     whole = bool(search.findings) and within_instruments(search.fit) and not long
-    two = None if whole or pair is None else _two(unbegun, found, pair, progress)
+    two = None if whole or pair is None else _two(unbegun, found, pair, library, progress)
     if taken or physics:
         go_on(search, library, progress)
     if long:
@@ -131,8 +139,13 @@ def _beside_error(
     return trial is not None and take_if_less(search, trial, unbegun.fit) and within_instruments(search.fit)
 
 
-def _two(unbegun: Search, found: Found, pair: tuple[Place, Place], progress: Progress) -> Search | None:
-    return two_places(unbegun, pair, next(iter(found.laws), None), progress)
+def _two(
+    unbegun: Search, found: Found, pair: tuple[Place, Place], library: Library, progress: Progress
+) -> Search | None:  # fmt: skip
+    two = two_places(unbegun, pair, next(iter(found.laws), None), progress)
+    if two is not None:
+        find_long_anew(two, library, progress)
+    return two
 
 
 def _pair(search: Search, found: Found, progress: Progress) -> tuple[Place, Place] | None:

@@ -30,7 +30,7 @@ from lacuna.discovery.law.empirical_law import fitted_law
 from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law_terms import Group
 from lacuna.discovery.law.together.pairs import Place, paired
-from lacuna.discovery.law.together.several import _is_of_form, _taken_out, finding, simplify
+from lacuna.discovery.law.together.several import _is_of_form, _taken_out, find_long_anew, finding, simplify
 from lacuna.discovery.naming.candidate_fit import without
 from lacuna.discovery.naming.foretold import DRAWS, foretold
 from lacuna.discovery.naming.screen import Candidate
@@ -159,3 +159,23 @@ def test_a_term_that_stood_for_what_is_missing_elsewhere_goes(tmp_path: Path) ->
     simplify(search, lambda text: None)
     kept = [f.ranked.attachment for f in search.findings if f.ranked.attachment.location == "upper"]
     assert [len(a.law.groups) for a in kept] == [len(richer.groups) - 1]
+
+
+def test_a_law_of_several_terms_is_found_anew_beside_the_others(tmp_path: Path) -> None:
+    """The cube of the upper tank's level, for which two other powers of it stood."""
+    result = explain(load(cascade(tmp_path, TORRICELLI.replace("q - k*upper", "q - k*upper - 2e-3*upper^3"))))
+    search = Search(
+        result.case, [], result.lead, result.floor, result.amendment, result.final, result.after, result.findings
+    )
+    k = next(k for k, f in enumerate(search.findings) if f.ranked.attachment.location == "upper")
+    site = search.findings[k].ranked.attachment.law.site
+    level = next(v for v in site.variables if v.name == "upper" and not v.minus)
+    longer = Law(site, (Group((f"{level.scaled}^2",)), Group((f"{level.scaled}^4",))))
+    amendment, base = _taken_out(search, k)
+    law = fitted_law(search.case, amendment, base, longer, {"c_1": -1e-4, "c_2": -1e-4})
+    search.findings[k] = finding(law, base, result.before, result.after)
+    search.take([*amendment.attachments, law.attachment], law.fit, result.after)
+    find_long_anew(search, search.case.library(), lambda text: None)
+    found = search.findings[k].ranked.attachment
+    assert (found.location, len(found.law.groups)) == ("upper", 1)
+    assert search.fit.deviance() == pytest.approx(result.final.deviance(), abs=2.0)

@@ -29,7 +29,6 @@ from lacuna.discovery.law.together.several import finding, paid
 from lacuna.discovery.naming.comparison import MIN_GAIN, price, score, told_by_data
 from lacuna.discovery.naming.judge import try_judge
 from lacuna.discovery.naming.left_out import left_out
-from lacuna.discovery.naming.name import Finding
 from lacuna.discovery.naming.race import HALF
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.naming.search import UNTOLD, Search
@@ -107,11 +106,6 @@ def two_places(
         return trial
     left(best.said(), "unseen", UNTOLD)
     return None
-
-
-def is_short(finding: Finding) -> bool:
-    """Whether a law is of one term: one of two ends no search, since its second may stand for what is elsewhere."""
-    return sum(p.name.startswith("c_") for p in finding.ranked.attachment.effect.parameters) == 1
 
 
 def paired(found: Found, progress: Progress) -> tuple[Place, Place] | None:

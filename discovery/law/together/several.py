@@ -79,6 +79,19 @@ def apart(search: Search, unbegun: Search, single: Candidate, library: Library, 
         take_if_less(search, trial, unbegun.fit)
 
 
+def find_long_anew(search: Search, library: Library, progress: Progress) -> None:
+    """Find each law of several terms anew, given the others: it was screened beside an effort of any course at their
+    places, and its further terms may stand for what that takes of it."""
+    for k, found in enumerate(search.findings):
+        if not is_short(found):
+            _find_anew(search, k, library, progress)
+
+
+def is_short(finding: Finding) -> bool:
+    """Whether a law is of one term: one of two ends no search, since its second may stand for what is elsewhere."""
+    return sum(p.name.startswith("c_") for p in finding.ranked.attachment.effect.parameters) == 1
+
+
 def simplify(search: Search, progress: Progress) -> None:
     """Each of several laws without what it does not need, given the others: terms that stood for what was missing
     elsewhere, before that was found."""
