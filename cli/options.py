@@ -39,14 +39,14 @@ Parameters = Annotated[
     list[str] | None,
     typer.Option(
         "--parameter", "-p", metavar="NAME=VALUE", autocompletion=parameters_of,
-        help="Set a parameter (SI units); repeat for more",
+        help="Set a parameter (in its declared unit); repeat for more",
     ),
 ]  # fmt: skip
 Inputs = Annotated[
     list[str] | None,
     typer.Option(
         "--input", "-u", metavar="NAME=VALUE|FILE.csv[:COLUMN]", autocompletion=inputs_of,
-        help="Drive an input by a constant or by a recorded column (SI units); repeat for more",
+        help="Drive an input by a constant or by a recorded column (in its declared unit); repeat for more",
     ),
 ]  # fmt: skip
 Hold = Annotated[bool, typer.Option("--hold", help="Hold recorded inputs between samples, not linear")]

@@ -6,7 +6,7 @@ from dataclasses import replace
 from fractions import Fraction
 import math
 
-from lacuna.units import factors_of, format_unit, parse_unit, written
+from lacuna.units import factors_of, format_unit, of_factors, parse_unit
 
 ZERO_CELSIUS = 273.15  # K
 
@@ -45,7 +45,7 @@ def _atom(symbol: str) -> tuple[float, str]:
 
 def to_si(unit: str) -> tuple[float, str]:
     """(factor, SI unit) of a unit written as Modelica writes it: "N.m", "rad/s", "kg.m2", "mA", "deg", "rpm"."""
-    text = unit.strip().replace("*", ".").replace("^", "")
+    text = unit.strip()
     if not text:
         raise UnitError('unit "" is empty; write "1" for a quantity without unit')
     try:
@@ -61,20 +61,7 @@ def to_si(unit: str) -> tuple[float, str]:
         factor *= scale**power
         for base, inner in factors_of(si):
             powers[base] = powers.get(base, 0) + inner * power
-    return factor, _written(powers)
-
-
-def _written(powers: dict[str, int | Fraction]) -> str:
-    above, below = (
-        [
-            base if abs(p) == 1 else f"{base}{written(sign * p)}"
-            for base, p in powers.items()
-            if sign * p > 0 and base != "1"
-        ]
-        for sign in (1, -1)
-    )
-    quotient = ".".join(below)
-    return (".".join(above) or "1") + (f"/({quotient})" if len(below) > 1 else f"/{quotient}" if below else "")
+    return factor, of_factors(powers.items())
 
 
 def factor_into(declared: str, si: str) -> float:

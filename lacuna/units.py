@@ -1,11 +1,13 @@
 """Units of measure: strings such as "N.m.s/rad" to SI exponents with a factor, and back.
 
-Grammar and symbols are those of the Modelica language specification (unit expressions). Angles are
-dimensionless: rad and 1 are the same, deg has the factor pi/180. A temperature in degC counts as K.
+Grammar and symbols are those of the Modelica language specification (unit expressions), and notations and units that
+practice has besides (factors: NIST SP 811, appendix B). Angles are dimensionless: rad and 1 are the same, deg has the
+factor pi/180. A temperature in degC counts as K.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache
@@ -17,27 +19,33 @@ Exponents = tuple[int | Fraction, ...]  # a Fraction only where it is no whole n
 _NONE: Exponents = (0,) * len(_BASE)
 
 
+class UnknownSymbol(ValueError):
+    """A unit that is well written, of a symbol that is not known."""
+
+
 @dataclass(frozen=True)
 class Unit:
     """Exponents of m, kg, s, A, K, mol, cd; `factor` to SI, or None where literals have made it unknown.
 
-    `text` is how it was written, where it was.
+    `text` is how it was written, where it was; `soft` where it was inferred beside a number that may have a unit.
     """
 
     exponents: Exponents
     factor: float | None = 1.0
     text: str = field(default="", compare=False)
+    soft: bool = field(default=False, compare=False)
 
     def __mul__(self, other: Unit) -> Unit:
         pairs = zip(self.exponents, other.exponents, strict=True)
-        return Unit(tuple(_whole(a + b) for a, b in pairs), _product(self.factor, other.factor))
+        exponents, factor = tuple(_whole(a + b) for a, b in pairs), _product(self.factor, other.factor)
+        return Unit(exponents, factor, soft=self.soft or other.soft)
 
     def __truediv__(self, other: Unit) -> Unit:
         return self * other**-1
 
     def __pow__(self, power: int | Fraction) -> Unit:
         factor = None if self.factor is None else self.factor ** float(power)
-        return Unit(tuple(_whole(a * power) for a in self.exponents), factor)
+        return Unit(tuple(_whole(a * power) for a in self.exponents), factor, soft=self.soft)
 
     @property
     def dimensionless(self) -> bool:
@@ -85,7 +93,15 @@ _SYMBOLS: dict[str, Unit] = {
     "eV": _unit(1.602176634e-19, m=2, kg=1, s=-2),
     "min": _unit(60.0, s=1), "h": _unit(3600.0, s=1), "d": _unit(86400.0, s=1), "l": _unit(1e-3, m=3),
     "L": _unit(1e-3, m=3), "t": _unit(1e3, kg=1), "bar": _unit(1e5, m=-1, kg=1, s=-2), "rpm": _unit(math.pi / 30, s=-1),
-    "var": _unit(m=2, kg=1, s=-3), "VA": _unit(m=2, kg=1, s=-3),
+    "var": _unit(m=2, kg=1, s=-3), "VA": _unit(m=2, kg=1, s=-3), "ohm": _unit(m=2, kg=1, s=-3, A=-2),
+    "Wh": _unit(3600.0, m=2, kg=1, s=-2), "Ah": _unit(3600.0, s=1, A=1), "ppb": _unit(1e-9), "percent": _unit(0.01),
+    "pu": DIMENSIONLESS, "count": DIMENSIONLESS, "counts": DIMENSIONLESS, "pulse": DIMENSIONLESS,
+    "pulses": DIMENSIONLESS, "in": _unit(0.0254, m=1), "ft": _unit(0.3048, m=1), "mi": _unit(1609.344, m=1),
+    "kph": _unit(1 / 3.6, m=1, s=-1), "mph": _unit(0.44704, m=1, s=-1), "kn": _unit(1852 / 3600, m=1, s=-1),
+    "lb": _unit(0.45359237, kg=1), "kgf": _unit(9.80665, m=1, kg=1, s=-2),
+    "lbf": _unit(4.4482216152605, m=1, kg=1, s=-2), "psi": _unit(6894.757293168361, m=-1, kg=1, s=-2),
+    "atm": _unit(101325.0, m=-1, kg=1, s=-2), "Torr": _unit(101325 / 760, m=-1, kg=1, s=-2),
+    "mmHg": _unit(133.322387415, m=-1, kg=1, s=-2), "P": _unit(0.1, m=-1, kg=1, s=-1), "St": _unit(1e-4, m=2, s=-1),
 }  # fmt: skip
 
 _PREFIXES = {
@@ -93,9 +109,19 @@ _PREFIXES = {
     "d": 1e-1, "c": 1e-2, "m": 1e-3, "u": 1e-6, "n": 1e-9, "p": 1e-12, "f": 1e-15, "a": 1e-18, "z": 1e-21, "y": 1e-24,
 }  # fmt: skip
 
-_UNPREFIXED = ("1", "%", "kg", "min", "h", "d", "deg", "degC", "rev", "rpm", "ppm", "rad", "sr")
-_FACTOR = re.compile(r"([A-Za-z%]+|1)([+-]?[0-9]+(?:\.[0-9]+)?)?")
-_POINT = re.compile(r"\.(?![0-9])")  # of a product; before a digit it is one of a power
+_UNPREFIXED = (
+    "1", "%", "kg", "min", "h", "d", "deg", "degC", "rev", "rpm", "ppm", "ppb", "pu", "percent", "rad", "sr",
+    "count", "counts", "pulse", "pulses", "in", "ft", "mi", "mph", "kph", "kn", "lb", "lbf", "kgf", "psi", "atm",
+    "mmHg",
+)  # fmt: skip
+_TOKEN = re.compile(r"\s*([A-Za-z%]+|1(?![0-9.])|[/()]|\.(?![0-9])|\^?[+-]?[0-9]+(?:\.[0-9]+)?|\^\([^()]+\))")
+_POWER = re.compile(r"\^?\(?([+-]?[0-9]+(?:\.[0-9]+|/[1-9][0-9]*)?)\)?")
+_OTHERWISE = str.maketrans({
+    "*": ".", "\u00b7": ".", "\u22c5": ".", "\u00b5": "u", "\u03bc": "u", "\u03a9": "Ohm", "\u2126": "Ohm",
+    "\u00b0": "deg", "\u00b2": "2", "\u00b3": "3",
+})  # fmt: skip
+_PRODUCT = r"[A-Za-z%]+(?:[+-]?[0-9.]*[0-9])?(?:\.[A-Za-z%]+(?:[+-]?[0-9.]*[0-9])?)*"
+_STANDARD = re.compile(rf"(?:1|{_PRODUCT}|\({_PRODUCT}\))(?:/(?:[A-Za-z%]+(?:[+-]?[0-9.]*[0-9])?|\({_PRODUCT}\)))?")
 
 
 def symbols() -> list[str]:
@@ -105,7 +131,8 @@ def symbols() -> list[str]:
 
 @lru_cache(maxsize=1024)
 def parse_unit(text: str) -> Unit:
-    """The unit that `text` means. Raises ValueError with a sentence for what cannot be read."""
+    """The unit that `text` means. Raises ValueError with a sentence for what cannot be read, UnknownSymbol where it can
+    and is not known."""
     result = DIMENSIONLESS
     for symbol, power in factors_of(text):
         result = result * _symbol(symbol, text) ** power
@@ -113,20 +140,72 @@ def parse_unit(text: str) -> Unit:
 
 
 def factors_of(text: str) -> list[tuple[str, int | Fraction]]:
-    """The symbols of a unit with their powers, those below a stroke negative: of several strokes as they are read in
-    practice, from left to right. Raises ValueError as parse_unit does, but for symbols that are not known."""
-    numerator, *denominators = text.strip().split("/")
-    return _group(numerator, text) + [(s, -power) for part in denominators for s, power in _group(part, text)]
+    """The symbols of a unit with their powers, those below a stroke negative. Read are, besides what the language has
+    (19.1), the notations of practice: several strokes from left to right, all after one below it, `^` before a power,
+    `*`, a raised dot or a space for a product, parentheses anywhere, raised 2 and 3, and a dash for 1. Raises
+    ValueError as parse_unit does, but for symbols that are not known."""
+    tokens, rest = [], text.translate(_OTHERWISE).strip()
+    rest = "1" if rest == "-" else rest
+    while rest:
+        if (found := _TOKEN.match(rest)) is None:
+            raise _no_unit(text)
+        tokens.append(found[1])
+        rest = rest[found.end() :]
+    factors = _expression(tokens, text)
+    if tokens:
+        raise _no_unit(text)
+    return factors
 
 
-def _group(part: str, whole: str) -> list[tuple[str, int | Fraction]]:
-    inner = part.strip()
-    if inner.startswith("(") and inner.endswith(")"):
-        inner = inner[1:-1]
-    found = [_FACTOR.fullmatch(factor.strip()) for factor in _POINT.split(inner)]
-    if not all(found):
-        raise ValueError(f"{whole!r} is no unit: write products as N.m, quotients as rad/s, powers as m2")
-    return [(f[1], _whole(Fraction(f[2] or 1))) for f in found if f]
+def is_standard(text: str) -> bool:
+    """Whether a unit is written as the language has it (19.1), powers that are decimals aside."""
+    return _STANDARD.fullmatch(text) is not None
+
+
+def of_factors(factors: Iterable[tuple[str, int | Fraction]]) -> str:
+    """A unit of these symbols and powers as the language writes it."""
+
+    def group(sign: int) -> list[str]:
+        powers = [(symbol, sign * power) for symbol, power in factors if symbol != "1" and sign * power > 0]
+        return [symbol if power == 1 else f"{symbol}{written(power)}" for symbol, power in powers]
+
+    factors = list(factors)
+    above, below = ".".join(group(1)) or "1", ".".join(group(-1))
+    if not below:
+        return above
+    return f"{above}/({below})" if "." in below else f"{above}/{below}"
+
+
+def _no_unit(text: str) -> ValueError:
+    return ValueError(f"{text!r} is no unit: write products as N.m, quotients as rad/s, powers as m2")
+
+
+def _expression(tokens: list[str], whole: str) -> list[tuple[str, int | Fraction]]:
+    """What is taken off the front of the tokens, up to a closing parenthesis."""
+    factors, sign = _power_of(tokens, whole), 1
+    while tokens and tokens[0] != ")":
+        if tokens[0] in "./":
+            sign = -1 if tokens.pop(0) == "/" else sign
+        factors += [(symbol, sign * power) for symbol, power in _power_of(tokens, whole)]
+    return factors
+
+
+def _power_of(tokens: list[str], whole: str) -> list[tuple[str, int | Fraction]]:
+    """A symbol or a parenthesis, with its power."""
+    token = tokens.pop(0) if tokens else ""
+    if token == "(":
+        factors = _expression(tokens, whole)
+        if not tokens or tokens.pop(0) != ")":
+            raise _no_unit(whole)
+    elif re.fullmatch(r"[A-Za-z%]+|1", token):
+        factors = [(token, 1)]
+    else:
+        raise _no_unit(whole)
+    power = _POWER.fullmatch(tokens[0]) if tokens else None
+    if power is None:
+        return factors
+    tokens.pop(0)
+    return [(symbol, _whole(own * Fraction(power[1]))) for symbol, own in factors]
 
 
 def _symbol(symbol: str, whole: str) -> Unit:
@@ -136,7 +215,7 @@ def _symbol(symbol: str, whole: str) -> Unit:
         rest = symbol.removeprefix(prefix)
         if rest != symbol and rest in _SYMBOLS and rest not in _UNPREFIXED:
             return Unit(_NONE, factor) * _SYMBOLS[rest]
-    raise ValueError(f"there is no unit {symbol!r}" + (f", as in {whole!r}" if symbol != whole else ""))
+    raise UnknownSymbol(f"there is no unit {symbol!r}" + (f", as in {whole!r}" if symbol != whole else ""))
 
 
 _NAMED = (
@@ -152,7 +231,8 @@ def _names() -> dict[Exponents, str]:
 
 def format_unit(unit: Unit) -> str:
     """A readable name: a common one where there is, else base units; another factor is shown before it."""
-    text = "1" if unit.dimensionless else _names().get(unit.exponents) or _base_text(unit.exponents)
+    base = of_factors(zip(_BASE, unit.exponents, strict=True))
+    text = "1" if unit.dimensionless else _names().get(unit.exponents) or base
     if unit.factor is not None and not math.isclose(unit.factor, 1.0, rel_tol=1e-9):
         text = f"{unit.factor:.6g} {text}"
     return text
@@ -162,14 +242,3 @@ def written(power: int | Fraction) -> str:
     """A power as a unit has it: a decimal where it is one."""
     decimal = f"{float(power):.6g}"
     return decimal if Fraction(decimal) == power else f"({power})"
-
-
-def _base_text(exponents: Exponents) -> str:
-    def group(sign: int) -> list[str]:
-        powers = [(b, sign * e) for b, e in zip(_BASE, exponents, strict=True) if sign * e > 0]
-        return [b if e == 1 else f"{b}{written(e)}" for b, e in powers]
-
-    above, below = ".".join(group(1)) or "1", ".".join(group(-1))
-    if not below:
-        return above
-    return f"{above}/({below})" if "." in below else f"{above}/{below}"

@@ -230,7 +230,7 @@ def _forecasts(batch, bank: Bank, scale: list[Limits], options, step: Step, seri
     horizon = np.full(len(batch), options.horizon) if options.horizon else LONG * watched
     quantiles = np.maximum.accumulate(np.stack([r.quantiles(LEVELS, 10 * horizon) for r in reaching], axis=1), axis=1)
     again = reaching[-1].reached(watched[:, None])[:, 0]
-    count = np.minimum(np.maximum(horizon / series.interval, 1).astype(int), options.listed)
+    count = np.clip(horizon / series.interval, 1, options.listed).astype(int)
     steps = series.interval[:, None] * np.arange(count.max() + 1)
     # [B, limits, 1 + tests]; a limit is not reached before the one below it, which sums of lognormals do not know
     risk = np.minimum.accumulate(np.stack([r.reached(steps) for r in reaching], axis=1), axis=1)

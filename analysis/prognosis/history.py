@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 EVENTS = ("", "replaced")
+MOST_USE = 1e150  # whose square is a machine number, too
 SEPARATORS = {";": "semicolon", "\t": "tab"}  # that other programs write
 FILES = ("history.csv", "history.parquet")
 TWO_SIDED_95 = 1.959964
@@ -229,6 +230,10 @@ class _Group:
         use, other = (reader.value(u) for u in (unit, UNITS[1 - UNITS.index(unit)]))
         if not use >= 0:
             raise reader.error(f"{unit} is {use:g}, {'no number' if math.isnan(use) else 'below zero'}")
+        if not use <= MOST_USE:
+            raise reader.error(
+                f"{unit} is {use:g}, beyond {MOST_USE:g}: forecasts look further ahead, and weigh squares"
+            )
         replaced = reader.event()
         if self.rows and self.rows[-1][1] >= use:
             raise reader.error(

@@ -84,9 +84,6 @@ def write(recorded: Recorded, path: Path) -> None:
     """Names in the first row, units in the second."""
     import pandas
 
-    if path.suffix.lower() != ".xlsx":
-        raise RecordingError(f"{path}: spreadsheets are written as .xlsx only")
-
     time, columns = on_one_time(recorded.channels)
     rows = [["time", *(c.name for c in recorded.channels)], ["s", *(c.unit for c in recorded.channels)]]
     rows += [list(row) for row in zip(time.tolist(), *(column.tolist() for column in columns), strict=True)]

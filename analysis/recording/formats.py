@@ -3,9 +3,9 @@
 text        .csv .txt .tsv .dat .asc   separators, decimal commas, encodings, rows of units
 MATLAB      .mat                       version 5 (scipy) and 7.3 (h5py)
 Parquet     .parquet                   units in the fields' metadata
-MDF 3, 4    .mdf .mf4 .dat (by its first bytes)
+MDF 3, 4    .mdf .mf4 .mf3 .dat (by its first bytes); written as .mf4
 TDMS        .tdms
-Excel       .xlsx .xls .ods            first sheet
+Excel       .xlsx .xls .ods            first sheet; written as .xlsx
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ _READERS = {
     "tdms": (".tdms",),
     "excel": (".xlsx", ".xls", ".ods"),
 }
+_READ_ONLY = {".mdf": ".mf4", ".mf3": ".mf4", ".xls": ".xlsx", ".ods": ".xlsx"}  # and what is written in their place
 SUFFIXES = tuple(suffix for suffixes in _READERS.values() for suffix in suffixes)
 
 
@@ -46,8 +47,12 @@ def read_recorded(path: Path | str) -> Recorded:
 @names_missing_packages
 def write_recorded(recorded: Recorded, path: Path) -> None:
     """Write the channels in the format of the path's suffix, whole or not at all. Raises RecordingError for others, and
-    for a channel that would stand in the file as a second time."""
+    for a channel that would stand in the file as a second time, or has a name that no column can have."""
     kind = _kind(path)
+    if (instead := _READ_ONLY.get(path.suffix.lower())) is not None:
+        raise RecordingError(f"{path}: {path.suffix} is read only; write {instead}")
+    if unfit := [c.name for c in recorded.channels if not c.name.strip() or not c.name.isprintable()]:
+        raise RecordingError(f"{path}: a channel cannot be called {unfit[0]!r} in a file: rename it")
     if second := [c.name for c in recorded.channels if c.name.lower() == "time"]:
         raise RecordingError(f"{path}: would have two columns called time: rename the channel {second[0]}")
     with whole_file(path) as partial:

@@ -1,7 +1,7 @@
 """Tables of numbers as text, as loggers and spreadsheets write them: separators, decimal commas, encodings, unit rows.
 
-Nothing is guessed where a guess could be wrong: a number is digits with one decimal mark and an exponent, an empty
-field is a missing sample, and anything else ends with file, line and column.
+Nothing is guessed where a guess could be wrong: a number is digits with one decimal mark and an exponent, a condition
+is true or false, an empty field is a missing sample, and anything else ends with file, line and column.
 """
 
 from __future__ import annotations
@@ -36,6 +36,8 @@ _SEPARATORS = (",", ";", "\t", "|", _BLANKS)
 _SAMPLE = 200  # lines that decide the dialect
 _NAN = re.compile(r"(?<![A-Za-z])nan(?![A-Za-z])", re.IGNORECASE)
 _NUMBER = {mark: re.compile(rf"[+-]?(\d+[{mark}]?\d*|[{mark}]\d+)([eE][+-]?\d+)?|(?i:nan)|") for mark in ".,"}
+_CONDITION = re.compile(r'(?<![^,;\t| ])"?\b(true|false)\b"?(?![^,;\t| ])', re.IGNORECASE)
+_DIGIT = re.compile("[0-9]")
 _NO_TEXT = re.compile("[\0-\x08\x0e-\x1f\x7f]")  # control characters, which a terminal would obey
 _NO_NAME = re.compile(r"[+-]?([0-9.,]+([eE][+-]?[0-9]+)?|(?i:inf|infinity|nan))")
 # A unit as it stands in a row of its own, such as s, rad/s, 1/min, N.m, degC: no blanks, few characters.
@@ -88,9 +90,9 @@ def read_text(path: Path) -> TextTable:
     text, encoding = _decoded(path)
     written = text.splitlines()
     instants_of = _instants(path, written)
-    lines = instants_of.lines
+    lines = [_with_conditions(line) for line in instants_of.lines]
     separator, decimal = _marks(path, lines, written)
-    first = _first_row_of_numbers(lines, separator, decimal)
+    first = next(i for i, line in enumerate(lines) if _is_row_of_numbers(_fields(line, separator), decimal))
     above = [_fields(line, separator) for line in written[:first]]
     width = len(_fields(lines[first], separator))
     names = [row for row in above if len(row) == width]
@@ -194,6 +196,11 @@ def _decoded(path: Path) -> tuple[str, str]:
     return text, encoding
 
 
+def _with_conditions(line: str) -> str:
+    """A line with 1 and 0 where conditions are written as true and false."""
+    return _CONDITION.sub(lambda found: str(int(found[1].lower() == "true")), line) if _DIGIT.search(line) else line
+
+
 def _fields(line: str, separator: str) -> list[str]:
     if separator == _BLANKS:
         return line.split()
@@ -233,10 +240,6 @@ def _nearest_to_one(lines: list[str], written: list[str]) -> str:
                 field = (*_fields(written[number - 1], separator)[strange[0] :], fields[strange[0]])[0]
                 best, most = f": in line {number} `{field[:40]}` is none", len(fields) - len(strange)
     return best
-
-
-def _first_row_of_numbers(lines: list[str], separator: str, decimal: str) -> int:
-    return next(i for i, line in enumerate(lines) if _is_row_of_numbers(_fields(line, separator), decimal))
 
 
 def _are_units(row: list[str], above: list[str]) -> bool:

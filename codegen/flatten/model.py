@@ -41,7 +41,7 @@ from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.symbolic.rewrite import assigned, expressions, without_marks
 from lacuna.codegen.syntax import ast
-from lacuna.codegen.units.check import check_units
+from lacuna.codegen.units.check import check_units, drop_unread
 
 
 def flatten(
@@ -103,10 +103,15 @@ def _check_connections(leaves: list[Leaf], buses: list[Instance], body: Collecte
 
 
 def _check_units(model: flat.FlatModel, context: Context, mode: str) -> flat.FlatModel:
-    """The findings to the context; the model without what only this check looks at."""
+    """The findings to the context; the model without what only this check looks at, and units that cannot be read."""
     checked = without_marks(model) if context.literal_units or context.derivatives else model
-    if mode == "off":
-        return checked
+    if mode != "off":
+        _note_findings(model, context, mode)
+    drop_unread(checked)
+    return checked
+
+
+def _note_findings(model: flat.FlatModel, context: Context, mode: str) -> None:
     package = context.library.foreign_package
     findings = check_units(
         model, context.argument_units, context.function_units, context.places, package, context.literal_units
@@ -120,7 +125,6 @@ def _check_units(model: flat.FlatModel, context: Context, mode: str) -> flat.Fla
         hint = "lacuna check --units all shows them"
         message = f"{count} places of the library {name} do not pass the unit check"
         context.warnings.append(Diagnostic("W007", message, hint=hint, severity="warning"))
-    return checked
 
 
 def _outside_modifier(modifications: dict[str, Expr | float], span: Span) -> Modifier | None:

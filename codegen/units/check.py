@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
@@ -15,10 +16,11 @@ from lacuna.codegen.units.inference import (
     UnitError,
     UnitInference,
     disagreement,
+    has_written_factor,
     of_variable,
     over,
 )
-from lacuna.units import Unit, format_unit, parse_unit
+from lacuna.units import Unit, UnknownSymbol, factors_of, format_unit, is_standard, of_factors, parse_unit
 
 MAX_FINDINGS = 10  # of a model's own
 MAX_COUNTED = 1000  # of libraries
@@ -47,6 +49,15 @@ def check_units(
     return check.run(arguments)
 
 
+def drop_unread(model: flat.FlatModel) -> None:
+    """Variables whose unit cannot be read declare none to all that comes after the check."""
+    for v in model.variables.values():
+        try:
+            v.unit = v.unit and parse_unit(v.unit).text
+        except ValueError:
+            v.unit = ""
+
+
 class _Check:
     def __init__(
         self,
@@ -62,19 +73,24 @@ class _Check:
         self.units: dict[str, Finding] = {}
         self._names: dict[Expr, set[str]] = {}  # of the variables in sides of equations
         for v in model.variables.values():
-            self._strokes(v)
             try:
                 self.units[v.name] = of_variable(v.unit, v.type, v.variability)
+                self._notation(v)
+            except UnknownSymbol as reason:
+                self.units[v.name] = UNKNOWN
+                message = f"{v.name}: {reason}: what is in it is not checked"
+                hint = "products are written N.m, quotients rad/s"
+                self._note(Diagnostic("W015", message, v.span, hint, severity="warning"))
             except ValueError as reason:
                 self.units[v.name] = UNKNOWN
                 self._note(Diagnostic("U005", f"{v.name}: {reason}", v.span, 'such as "N.m.s/rad"'))
 
-    def _strokes(self, v: flat.Variable) -> None:
-        """A warning where a declared unit has more than one stroke."""
-        if v.unit.count("/") > 1:
-            message = f"{v.name}: {v.unit!r} has several '/', and is read from left to right"
-            hint = "one is what the language has (19.1): put the denominator in parentheses, as in W/(m2.K)"
-            self._note(Diagnostic("W014", message, v.span, hint, severity="warning"))
+    def _notation(self, v: flat.Variable) -> None:
+        """A warning where a declared unit is written otherwise than the language writes units."""
+        if v.unit and not is_standard(v.unit):
+            meant = of_factors(factors_of(v.unit))
+            message = f"{v.name}: {v.unit!r} is no unit as the language writes them (19.1), and is read as {meant}"
+            self._note(Diagnostic("W014", message, v.span, f'unit="{meant}"', severity="warning"))
 
     def run(self, arguments: Iterable[Argument]) -> list[Diagnostic]:
         self._infer_unknown()
@@ -171,13 +187,19 @@ class _Check:
                 v.inferred_unit = format_unit(found)
 
     def _infer_unknown(self) -> None:
-        """Units of variables that declare none, from equations that leave one choice; to a fixed point."""
+        """Units of variables that declare none, from equations that leave one choice; to a fixed point. First from
+        equations without a number that may have a unit itself: what is inferred from the others is `soft`."""
         if UNKNOWN not in self.units.values():
             return
         pending = [e for e in self.model.equations if self._has_unknown(e.lhs) or self._has_unknown(e.rhs)]
         bindings = [(v.name, v.binding) for v in self.model.variables.values() if v.binding is not None]
         pairs = [(e.lhs, e.rhs) for e in pending]
         pairs += [(var(n), b) for n, b in bindings if self.units[n] == UNKNOWN and b.op != "const"]
+        plain = [pair for pair in pairs if not any(map(has_written_factor, pair))]
+        self._infer_from(plain)
+        self._infer_from(pairs)
+
+    def _infer_from(self, pairs: list[tuple[Expr, Expr]]) -> None:
         changed = True
         while changed and pairs:
             changed = False
@@ -185,7 +207,7 @@ class _Check:
             rest = []
             for lhs, rhs in pairs:
                 try:
-                    left, right = inference.of(lhs), inference.of(rhs)
+                    left, right = (self._softer(inference.of(side), lhs, rhs) for side in (lhs, rhs))
                     solved = self._solve(lhs, right, inference) | self._solve(rhs, left, inference)
                 except UnitError:
                     continue
@@ -193,6 +215,12 @@ class _Check:
                 if self._has_unknown(lhs) or self._has_unknown(rhs):
                     rest.append((lhs, rhs))
             pairs = rest
+
+    @staticmethod
+    def _softer(unit: Finding, lhs: Expr, rhs: Expr) -> Finding:
+        """A unit as it is inferred from an equation."""
+        beside = isinstance(unit, Unit) and (has_written_factor(lhs) or has_written_factor(rhs))
+        return replace(unit, soft=True) if beside else unit
 
     def _has_unknown(self, e: Expr) -> bool:
         names = self._names.get(e)

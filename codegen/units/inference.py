@@ -2,7 +2,8 @@
 
 In a product a literal is a plain number of unknown scale (it may convert); added or compared it takes the
 unit of the other operand. What does not agree for it is a warning: the number may have a unit (as in `10*sin(314*time)`
-volts), which the language gives no place to write.
+volts), which the language gives no place to write. So is what disagrees with a unit that was inferred beside such a
+number (`soft`), and `time` by itself, as in `sin(time)`, which is a number of seconds to those who write so.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from fractions import Fraction
 
 from lacuna.codegen.symbolic.annotated import tells_units
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, RELATIONS, Expr, to_text
-from lacuna.units import DIMENSIONLESS, Unit, parse_unit
+from lacuna.units import DIMENSIONLESS, Unit, format_unit, parse_unit
 
 SECOND = parse_unit("s")
 _COUNT = Unit(DIMENSIONLESS.exponents, None)
@@ -109,7 +110,7 @@ class UnitInference:
                 if isinstance(result, Unit):
                     if not result.same(found):
                         raise disagreement("U002", f"{how} in {short(e)}", first, result, a, found)
-                    if result.factor is None:
+                    if result.factor is None or (result.soft and found.factor is not None):
                         result = found
                 else:
                     result, first = found, a
@@ -120,11 +121,12 @@ class UnitInference:
     def require(self, e: Expr, unit: Unit, why: str) -> None:
         found = self.of(e)
         if isinstance(found, Unit) and not found.same(unit):
-            written = _has_written_factor(e)
-            if unit.dimensionless and written:
+            scaled = has_written_factor(e)
+            if unit.dimensionless and scaled and e.op != "time":
                 return
             hint = "divide by a quantity of the same unit" if unit.dimensionless else f"it needs the unit {unit}"
-            raise UnitError("U003", f"{why}; {short(e)} is in {found}", hint, "warning" if written else "error")
+            severity = "warning" if scaled or found.soft else "error"
+            raise UnitError("U003", f"{why}; {short(e)} is in {found}", hint, severity)
 
     def _power(self, e: Expr) -> Finding:
         base, exponent = e.args
@@ -134,7 +136,10 @@ class UnitInference:
             return found
         if exponent.op != "const":
             hint = "divide the base by a quantity of the same unit"
-            raise UnitError("U003", f"{short(base)} is in {found}, its exponent {short(exponent)} varies", hint)
+            severity = "warning" if found.soft or has_written_factor(base) else "error"
+            raise UnitError(
+                "U003", f"{short(base)} is in {found}, its exponent {short(exponent)} varies", hint, severity
+            )
         return found ** Fraction(exponent.value).limit_denominator(1000)
 
     def _call(self, e: Expr) -> Finding:
@@ -166,7 +171,7 @@ def times(a: Finding, b: Finding) -> Finding:
     if UNKNOWN in (a, b):
         return UNKNOWN
     known = a if isinstance(a, Unit) else b
-    return Unit(known.exponents, None) if isinstance(known, Unit) else LITERAL
+    return Unit(known.exponents, None, soft=known.soft) if isinstance(known, Unit) else LITERAL
 
 
 def over(a: Finding, b: Finding) -> Finding:
@@ -179,10 +184,14 @@ def disagreement(code: str, how: str, a: Expr, unit_a: Unit, b: Expr, unit_b: Un
     if unit_a.exponents == unit_b.exponents:
         return UnitError("U004", message, f"one is {unit_a.factor / unit_b.factor:.6g} times the other: convert it")
     ratio = unit_a / unit_b
-    missing = Unit(ratio.exponents, 1.0)
-    if _has_written_factor(a) or _has_written_factor(b):
+    if scaled := [side for side in (a, b) if has_written_factor(side)]:
+        missing = format_unit(Unit((ratio if scaled[0] is b else ratio**-1).exponents))
         hint = f"if a number there is in {missing}, make it a parameter with that unit; or correct a declared unit"
         return UnitError(code, message, hint, "warning")
+    if unit_a.soft or unit_b.soft:
+        hint = "declare the unit that was inferred here beside a number, or correct one"
+        return UnitError(code, message, hint, "warning")
+    missing = format_unit(Unit(ratio.exponents))
     return UnitError(code, message, f"multiply {short(b)} by a quantity in {missing}, or correct a declared unit")
 
 
@@ -195,16 +204,17 @@ def of_variable(unit: str, kind: str, variability: str) -> Finding:
     return LITERAL if variability == "constant" else UNKNOWN
 
 
-def _has_written_factor(e: Expr) -> bool:
+def has_written_factor(e: Expr) -> bool:
     """Whether a number that somebody wrote scales `e`, or a part of it that has its unit: in `sin(314*time)` it may
-    well be a frequency, whose unit has no place to stand. A sign or a 1 is no scale."""
+    well be a frequency, whose unit has no place to stand. A sign or a 1 is no scale; time alone is as if it had one."""
     if e.op in ("*", "/"):
-        return any(_is_scale(a) or _has_written_factor(a) for a in e.args)
+        return any(_is_scale(a) or (a.op != "time" and has_written_factor(a)) for a in e.args)
     if e.op in ("if", "smooth"):  # a condition, an order
-        return any(map(_has_written_factor, e.args[1:]))
+        return any(map(has_written_factor, e.args[1:]))
     if e.op in ("annotated", "^") or (e.op == "call" and str(e.value) in ("sqrt", "abs")):
-        return _has_written_factor(e.args[0])
-    return e.op in ("+", "-", "neg", "min", "max", "noEvent", "pre") and any(map(_has_written_factor, e.args))
+        return has_written_factor(e.args[0])
+    inside = e.op in ("+", "-", "neg", "min", "max", "noEvent", "pre") and any(map(has_written_factor, e.args))
+    return inside or e.op == "time"
 
 
 def _is_scale(e: Expr) -> bool:

@@ -24,6 +24,10 @@ static rt_status check_settings(rt_session *s) {
   double span = s->stop - s->start, step = s->options.step, interval = s->recorder.interval;
   if (step > 0 && (step < 16 * rt_time_resolution(s) || span / step > RT_MOST_STEPS))
     return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "a step of %.9g s does not get through %.9g s", step, span);
+  if (span > 0 && rt_time_resolution(s) > s->options.rtol * span)
+    return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL,
+                   "time is rounded to %.3g s at %.9g s, which is more than the tolerance of a run of %.9g s",
+                   rt_time_resolution(s), s->start, span);
   if (s->recorder.n_grid == 0 && interval > 0 && (span / interval) * (s->recorder.n + 2) > RT_MOST_VALUES)
     return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL,
                    "an output interval of %.9g s makes %.3g rows of %d variables: more than %.0g values", interval,

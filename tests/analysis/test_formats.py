@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 import time
 
@@ -123,10 +124,20 @@ def test_equal_recordings_are_equal_bytes(name: str, tmp_path: Path) -> None:
     assert made[0] == made[1]
 
 
-def test_a_spreadsheet_of_another_kind_is_not_written_under_its_name(tmp_path: Path) -> None:
-    with pytest.raises(RecordingError, match="only"):
-        write_recorded(read_recorded(csv(tmp_path / "source.csv")), tmp_path / "a.ods")
-    assert not (tmp_path / "a.ods").exists()
+@pytest.mark.parametrize(("name", "instead"), [("a.ods", ".xlsx"), ("a.mdf", ".mf4"), ("a.mf3", ".mf4")])
+def test_what_is_read_only_is_not_written_under_its_name(tmp_path: Path, name: str, instead: str) -> None:
+    with pytest.raises(RecordingError, match=f"{name}: .* is read only; write {instead}"):
+        write_recorded(read_recorded(csv(tmp_path / "source.csv")), tmp_path / name)
+    assert not (tmp_path / name).exists()
+
+
+@pytest.mark.parametrize("name", ["", " ", "a\nb"])
+def test_a_channel_has_a_name_that_can_be_read_again(tmp_path: Path, name: str) -> None:
+    source = read_recorded(csv(tmp_path / "source.csv"))
+    named = replace(source, channels=(replace(source.channels[0], name=name),))
+    with pytest.raises(RecordingError, match="cannot be called"):
+        write_recorded(named, tmp_path / "a.csv")
+    assert not (tmp_path / "a.csv").exists()
 
 
 def test_a_file_has_one_time(tmp_path: Path) -> None:

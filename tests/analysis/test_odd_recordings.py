@@ -33,10 +33,12 @@ def found(recorded: Recorded) -> dict[str, tuple[str, list[float]]]:
         ("sep=;\ntime;u\n0;1,5\n1;2,5\n", {"u": ("", [1.5, 2.5])}),
         ('"Time (s)","Current, A","w ""rotor"" [rad/s]"\n"0","1","2"\n"1","1.5","3"\n',
          {"Current": ("A", [1, 1.5]), 'w "rotor"': ("rad/s", [2, 3])}),
+        ("time,on,q\n0,true,10\n1,FALSE,11\n2,,12\n", {"on": ("", [1, 0, None]), "q": ("", [10, 11, 12])}),
     ],
 )  # fmt: skip
 def test_dialects_of_text(tmp_path: Path, text: str, expected: dict[str, tuple[str, list[float]]]) -> None:
-    assert found(read(tmp_path / "r.txt", text)) == expected
+    told = found(read(tmp_path / "r.txt", text))
+    assert {n: (u, [None if x != x else x for x in values]) for n, (u, values) in told.items()} == expected
 
 
 @pytest.mark.parametrize(
@@ -95,7 +97,7 @@ def test_a_column_that_counts_the_rows_is_left_out_with_a_word(tmp_path: Path) -
         ('time,u\n0,"1\n1,2\n2,3\n', ":2: 1 fields where the header has 2"),
         ("time,u\n0;1\n1,2\n2,3\n", ":2: 1 fields where the header has 2"),
         ("time,u\n24:00:01,1\n", ":2: `24:00:01` is no instant"),
-        ("time,on\n0,true\n", "line 2 `true` is none"),
+        ("time,on\n0,open\n", "line 2 `open` is none"),
         ("time,u\n11:59:59 AM,1\n12:00:00 PM,2\n", "line 2 `11:59:59 AM` is none"),  # it was -1000000000 AM
         (",time,u\n7,0.0,1\n8,0.1,2\n", "column 1 has no name"),
         ("time,u\n0,1\n1,2\nEnd of file\n", ":4: 1 fields"),

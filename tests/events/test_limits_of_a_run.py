@@ -154,3 +154,12 @@ def test_chattering_that_gets_somewhere_ends(tmp_path: Path) -> None:
     assert failure is not None
     assert (failure.status, failure.variable, failure.line) == ("step_collapse", "x", 4)
     assert "1 s of computing brought" in str(failure)
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+def test_a_run_that_is_lost_in_the_rounding_of_time_is_refused(tmp_path: Path, solver: str) -> None:
+    """Milliseconds since 1970: steps and the time that they lead to part company, x ends at 1.0002."""
+    text = "model M\n  Real x(start=0, fixed=true);\nequation\n  der(x) = 1;\nend M;\n"
+    failure = simulated(tmp_path, text, solver=solver, start=1.7e12, stop=1.7e12 + 1).failure
+    assert failure.status == "argument"
+    assert "time is rounded to 0.000755 s" in str(failure)

@@ -114,6 +114,8 @@ def _require_equal(instance: Instance, count: _Count) -> None:
         cls = instance.cls
         message = f"{cls.name} is not balanced: {equations} equations for {unknowns} unknowns of its own"
         hint = "each class has as many equations as it declares unknowns, one for each pair of a potential and a flow"
+        if unknowns > equations:
+            hint += "; what the model around says of it is declared as an input there: input Real x"
         error = Diagnostic("R078", message, (cls.origin or cls).span, hint)
         error.notes.append((instance.span, f"as {instance.name} is declared here"))
         raise error

@@ -120,7 +120,8 @@ def _variable(leaf: Leaf, position: int, attributes: dict[str, Expr | str]) -> f
         result.state_select = _state_select(attributes["stateSelect"], leaf)
     result.enumeration = leaf.type.literals
     given_here = leaf.causality == "input" and leaf.modifier.value is not None
-    if leaf.instance.parent is None and leaf.instance.name == "" and leaf.causality and not given_here:
+    outside = leaf.instance.parent is None and leaf.instance.name == "" and not leaf.declaration.protected
+    if outside and leaf.causality and not given_here:
         result.causality = leaf.causality
     return result
 

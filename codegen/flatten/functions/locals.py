@@ -19,7 +19,7 @@ from lacuna.codegen.flatten.names.values import (
 )
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.references import references
-from lacuna.units import parse_unit
+from lacuna.units import UnknownSymbol, parse_unit
 
 
 @dataclass
@@ -49,7 +49,7 @@ class Local:
 
     @cached_property
     def unit(self) -> str:
-        """The declared unit, "" where there is none. Raises U005 for what is no unit."""
+        """The declared unit, "" where there is none that is known. Raises U005 for what is no unit."""
         own = from_tree(self.declaration.modification, self.scope)
         child = (merge(own, self.type.modifier) or own).children.get("unit")
         if child is None:
@@ -59,6 +59,8 @@ class Local:
             if not isinstance(text, str):
                 raise ValueError("the unit is not a String")
             parse_unit(text)
+        except UnknownSymbol:
+            return ""
         except ValueError as reason:
             raise Diagnostic("U005", f"{self.name}: {reason}", child.span, 'such as "N.m.s/rad"') from None
         return text

@@ -146,3 +146,10 @@ def test_what_a_part_does_beyond_its_limit_tells_no_life():
     first = Bank(LAWS).prior.sum(axis=(1, 2))
     assert np.argmax(priors[0].sum(axis=(1, 2)) / first) == [law.name for law in LAWS].index("crack")
     assert priors[0] == pytest.approx(priors[1], rel=1e-9)
+
+
+def test_a_horizon_beyond_all_counts_lists_as_many_tests_as_a_long_one():
+    known = history(linear, np.arange(100.0, 900.0, 100.0))
+    long, longest = (said(known, horizon=h) for h in (1e9, 1e300))
+    assert len(longest.ahead) == len(long.ahead) > 0
+    assert longest.advised == long.advised

@@ -54,6 +54,7 @@ def test_parquet_says_the_same(tmp_path):
         ("actuator,cycles,severity,low,high\nA,x,0.1,0.1,0.1\n", ":2: cycles is 'x', not a finite number"),
         ("actuator,cycles,severity,low,high\nA,inf,0.1,0.1,0.1\n", ":2: cycles is 'inf', not a finite number"),
         ("actuator,cycles,severity,low,high\nA,-1,0.1,0.1,0.1\n", ":2: cycles is -1, below zero"),
+        ("actuator,cycles,severity,low,high\nA,1e308,0.1,0.1,0.1\n", r":2: cycles is 1e\+308, beyond 1e\+150"),
         ("actuator,cycles,severity,low,high\nA,5,.1,.1,.1\nA,4,.1,.1,.1\n", ":3: cycles do not increase: 4 after 5"),
         ("actuator,cycles,severity,low,high\nA,5,.1,.1,.1\nA,5,.1,.1,.1\n", ":3: cycles do not increase"),
         ("actuator,cycles,severity,low,high\nA,5,0.1,,\n", ":2: severity without low and high"),

@@ -240,3 +240,24 @@ def test_what_is_protected_in_components_is_hidden_and_what_is_in_the_model_itse
     hidden = {name for name, v in flatten_text(tmp_path, text).variables.items() if v.hidden}
     inside = {"open.kept", "all[1].kept", "all[2].kept", "shut.seen", "shut.kept"}
     assert hidden == {f"{middle}.{name}" for middle in ("part", "own") for name in inside}
+
+
+def test_a_protected_input_is_no_input_of_the_model(tmp_path: Path) -> None:
+    """As conditional connectors of blocks have them: what is connected to it gives its value."""
+    text = """connector In = input Real;
+connector Out = output Real;
+block Ten
+  Out y = 10;
+end Ten;
+model M
+  Ten c;
+  Real y = 2*inner_;
+  input Real u;
+protected
+  In inner_;
+equation
+  connect(c.y, inner_);
+end M;
+"""
+    model = flatten_text(tmp_path, text)
+    assert [v.name for v in model.variables.values() if v.causality == "input"] == ["u"]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 
 import pytest
@@ -11,52 +10,7 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten import flatten
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.symbolic.expr import walk
-from lacuna.units import format_unit, parse_unit
 from tests.codegen.front.helpers import flatten_text
-
-
-@pytest.mark.parametrize(
-    ("text", "same_as", "factor"),
-    [
-        ("N.m", "kg.m2/s2", 1),
-        ("V.s/rad", "Wb", 1),
-        ("N.m.s/rad", "J.s", 1),
-        ("1/s", "Hz", 1),
-        ("W/(m2.K)", "kg/(s3.K)", 1),
-        ("m/s2", "m.s-2", 1),
-        ("kN", "N", 1e3),
-        ("mA", "A", 1e-3),
-        ("uF", "F", 1e-6),
-        ("deg", "rad", math.pi / 180),
-        ("%", "1", 0.01),
-        ("rev/min", "rad/s", 2 * math.pi / 60),
-        ("g.cm2", "kg.m2", 1e-7),
-        ("mOhm", "V/A", 1e-3),
-        ("kW.h", "J", 3.6e6),
-        ("min", "s", 60),
-        ("Pa", "N/m2", 1),
-        ("m3/s/m0.5", "m2.5/s", 1),
-        ("W/m2/K", "W/(m2.K)", 1),
-        ("V/Hz0.5", "V.s0.5", 1),
-    ],
-)
-def test_unit_strings(text: str, same_as: str, factor: float) -> None:
-    unit, reference = parse_unit(text), parse_unit(same_as)
-    assert unit.exponents == reference.exponents
-    assert unit.factor == pytest.approx(factor * reference.factor, rel=1e-12)
-
-
-@pytest.mark.parametrize("text", ["furlong", "m//s", "N m", "m/(s/s)", "2m", "m^2", "kkg", ""])
-def test_what_is_no_unit(text: str) -> None:
-    with pytest.raises(ValueError, match=r".+"):
-        parse_unit(text)
-
-
-def test_names_of_units() -> None:
-    assert [format_unit(parse_unit(t)) for t in ("kg.m2/(s3.A)", "kg.m2/s2", "s-1", "m2", "mm")] == [
-        "V", "N.m", "1/s", "m2", "0.001 m",
-    ]  # fmt: skip
-
 
 DECLARED = """model M
   parameter Real R(unit = "Ohm") = 2, L(unit = "H") = 1e-3, k(unit = "V.s/rad") = 0.1;
@@ -276,6 +230,45 @@ end M;""",
     assert [n for n in model.variables if n.startswith("w")] == ["w0", "w[1]", "w[2]"]
 
 
-def test_several_strokes_are_read_from_left_to_right_and_said(tmp_path: Path) -> None:
-    model = flatten_text(tmp_path, 'model M\n  parameter Real h(unit = "W/m2/K") = 5;\nend M;')
-    assert [(f.code, f.severity) for f in model.warnings] == [("W014", "warning")]
+@pytest.mark.parametrize(
+    ("text", "codes"),
+    [
+        ("Real P; Real T(unit=\"K\", start=293, fixed=true); parameter Real C(unit=\"J/K\") = 10;"
+         " equation P = 20*(1 + 0.004*(T - 298)); C*der(T) = P;", ["U001"]),
+        ("Real P; Real T(unit=\"K\", start=293, fixed=true); parameter Real C(unit=\"J/K\") = 10;"
+         " equation C*der(T) = P; P = 20*(1 + 0.004*(T - 298));", ["U001"]),
+        ("parameter Real a(unit=\"degC\") = 5; Real cop = 5.6 - 0.08*a; Real Q(unit=\"kW\") = cop*p;"
+         " parameter Real p(unit=\"kW\") = 1;", ["U001"]),
+        ("Real d = 3*exp(-time/5); Real F(unit=\"N\") = 10 - d;", ["U001"]),
+        ("Real T(unit=\"degC\", start=20, fixed=true); Real u = 4*(60 - T); Real cut = min(100, max(0, u));"
+         " Real P(unit=\"W\") = 2000*cut/100; parameter Real C(unit=\"J/K\") = 1; equation C*der(T) = P;", ["U001"]),
+        ("Real N(unit=\"1/s\") = 7; parameter Real a = 0.7; parameter Real k(unit=\"1/s\") = 1;"
+         " Real kLa(unit=\"1/s\") = k*(N/7.5)^a;", ["U003"]),
+        ("Real u = 10*sin(time); Real i(unit=\"A\") = 10 + time;", ["U003", "U001"]),
+        ("Real c(unit=\"EUR/kWh\") = 0.3; Real k(unit=\"A\") = 2*c;", ["W015"]),
+    ],
+)  # fmt: skip
+def test_a_number_that_may_have_a_unit_is_no_error_further_on(tmp_path: Path, text: str, codes: list[str]) -> None:
+    """A unit that is inferred beside such a number is no claim that others could be held to."""
+    model = flatten_text(tmp_path, f"model M\n  {text}\nend M;")
+    assert [f.code for f in model.warnings] == codes
+
+
+def test_a_unit_that_is_inferred_without_numbers_is_a_claim(tmp_path: Path) -> None:
+    text = """model M
+  parameter Real R(unit="Ohm") = 1; Real i(unit="A") = 2; Real v(unit="V"); Real p;
+equation
+  v = R*i; p = v*i; v = p;
+end M;"""
+    with pytest.raises(Diagnostic, match="v is in V, p is in W"):
+        flatten_text(tmp_path, text)
+
+
+def test_what_hides_in_a_number_is_told_of_its_side(tmp_path: Path) -> None:
+    text = """model M
+  Real w(unit="W", start=0, fixed=true); Real u(unit="W") = 1;
+equation
+  8*der(w) = u - w;
+end M;"""
+    (found,) = flatten_text(tmp_path, text).warnings
+    assert "a number there is in s," in found.hint

@@ -2,7 +2,7 @@
 // line: 5
 // hint: N.m.s/rad
 model M
-  Real x(unit = "furlong");
+  Real x(unit = "m//s");
 equation
   x = time;
 end M;
