@@ -15,8 +15,6 @@ from lacuna.codegen.units.inference import (
     Finding,
     UnitError,
     UnitInference,
-    disagreement,
-    has_written_factor,
     of_variable,
     over,
 )
@@ -144,7 +142,7 @@ class _Check:
     def _sides(inference: UnitInference, lhs: Expr, rhs: Expr) -> None:
         left, right = inference.of(lhs), inference.of(rhs)
         if isinstance(left, Unit) and isinstance(right, Unit) and not left.same(right):
-            raise disagreement("U001", "left and right", lhs, left, rhs, right)
+            raise inference.disagreement("U001", "left and right", lhs, left, rhs, right)
 
     def _variable(self, inference: UnitInference, v: flat.Variable) -> None:
         own = self.units[v.name]
@@ -158,7 +156,7 @@ class _Check:
     def _value(inference: UnitInference, name: str, own: Finding, value: Expr, what: str) -> None:
         found = inference.of(value)
         if isinstance(own, Unit) and isinstance(found, Unit) and not own.same(found):
-            raise disagreement("U001", f"{name} and its {what}", var(name), own, value, found)
+            raise inference.disagreement("U001", f"{name} and its {what}", var(name), own, value, found)
 
     def _statements(self, inference: UnitInference, body: Iterable[flat.Statement]) -> None:
         for s in body:
@@ -195,7 +193,8 @@ class _Check:
         bindings = [(v.name, v.binding) for v in self.model.variables.values() if v.binding is not None]
         pairs = [(e.lhs, e.rhs) for e in pending]
         pairs += [(var(n), b) for n, b in bindings if self.units[n] == UNKNOWN and b.op != "const"]
-        plain = [pair for pair in pairs if not any(map(has_written_factor, pair))]
+        scaled = self._inference().has_written_factor
+        plain = [pair for pair in pairs if not any(map(scaled, pair))]
         self._infer_from(plain)
         self._infer_from(pairs)
 
@@ -207,7 +206,8 @@ class _Check:
             rest = []
             for lhs, rhs in pairs:
                 try:
-                    left, right = (self._softer(inference.of(side), lhs, rhs) for side in (lhs, rhs))
+                    soft = inference.has_written_factor(lhs) or inference.has_written_factor(rhs)
+                    left, right = (_softer(inference.of(side), soft) for side in (lhs, rhs))
                     solved = self._solve(lhs, right, inference) | self._solve(rhs, left, inference)
                 except UnitError:
                     continue
@@ -215,12 +215,6 @@ class _Check:
                 if self._has_unknown(lhs) or self._has_unknown(rhs):
                     rest.append((lhs, rhs))
             pairs = rest
-
-    @staticmethod
-    def _softer(unit: Finding, lhs: Expr, rhs: Expr) -> Finding:
-        """A unit as it is inferred from an equation."""
-        beside = isinstance(unit, Unit) and (has_written_factor(lhs) or has_written_factor(rhs))
-        return replace(unit, soft=True) if beside else unit
 
     def _has_unknown(self, e: Expr) -> bool:
         names = self._names.get(e)
@@ -262,3 +256,8 @@ class _Check:
             wanted = over(unit, known_a) if e.op == "*" else over(known_a, unit)
             return self._solve(b, wanted, inference)
         return False
+
+
+def _softer(unit: Finding, soft: bool) -> Finding:
+    """A unit as it is inferred from an equation."""
+    return replace(unit, soft=True) if soft and isinstance(unit, Unit) else unit

@@ -109,7 +109,7 @@ class UnitInference:
             if isinstance(found, Unit):
                 if isinstance(result, Unit):
                     if not result.same(found):
-                        raise disagreement("U002", f"{how} in {short(e)}", first, result, a, found)
+                        raise self.disagreement("U002", f"{how} in {short(e)}", first, result, a, found)
                     if result.factor is None or (result.soft and found.factor is not None):
                         result = found
                 else:
@@ -121,7 +121,7 @@ class UnitInference:
     def require(self, e: Expr, unit: Unit, why: str) -> None:
         found = self.of(e)
         if isinstance(found, Unit) and not found.same(unit):
-            scaled = has_written_factor(e)
+            scaled = self.has_written_factor(e)
             if unit.dimensionless and scaled and e.op != "time":
                 return
             hint = "divide by a quantity of the same unit" if unit.dimensionless else f"it needs the unit {unit}"
@@ -136,7 +136,7 @@ class UnitInference:
             return found
         if exponent.op != "const":
             hint = "divide the base by a quantity of the same unit"
-            severity = "warning" if found.soft or has_written_factor(base) else "error"
+            severity = "warning" if found.soft or self.has_written_factor(base) else "error"
             raise UnitError(
                 "U003", f"{short(base)} is in {found}, its exponent {short(exponent)} varies", hint, severity
             )
@@ -164,6 +164,38 @@ class UnitInference:
         declared = self._function(name)
         return parse_unit(declared) if declared else UNKNOWN
 
+    def disagreement(self, code: str, how: str, a: Expr, unit_a: Unit, b: Expr, unit_b: Unit) -> UnitError:
+        """Both sides with their units, and the factor between them."""
+        message = f"units differ, {how}: {short(a)} is in {unit_a}, {short(b)} is in {unit_b}"
+        if unit_a.exponents == unit_b.exponents:
+            return UnitError("U004", message, f"one is {unit_a.factor / unit_b.factor:.6g} times the other: convert it")
+        ratio = unit_a / unit_b
+        if scaled := [side for side in (a, b) if self.has_written_factor(side)]:
+            missing = format_unit(Unit((ratio if scaled[0] is b else ratio**-1).exponents))
+            hint = f"if a number there is in {missing}, make it a parameter with that unit; or correct a declared unit"
+            return UnitError(code, message, hint, "warning")
+        if unit_a.soft or unit_b.soft:
+            hint = "declare the unit that was inferred here beside a number, or correct one"
+            return UnitError(code, message, hint, "warning")
+        missing = format_unit(Unit(ratio.exponents))
+        return UnitError(code, message, f"multiply {short(b)} by a quantity in {missing}, or correct a declared unit")
+
+    def has_written_factor(self, e: Expr) -> bool:
+        """Whether a number that somebody wrote scales `e`, or a part of it that has its unit: in `sin(314*time)` it may
+        well be a frequency, whose unit has no place to stand. A sign or a 1 is no scale; a constant without unit
+        is (`m*g`), and time alone is as if it had one."""
+        if e.op in ("*", "/"):
+            return any(self._is_scale(a) or (a.op != "time" and self.has_written_factor(a)) for a in e.args)
+        if e.op in ("if", "smooth"):  # a condition, an order
+            return any(map(self.has_written_factor, e.args[1:]))
+        if e.op in ("annotated", "^") or (e.op == "call" and str(e.value) in ("sqrt", "abs")):
+            return self.has_written_factor(e.args[0])
+        inside = e.op in ("+", "-", "neg", "min", "max", "noEvent", "pre") and any(map(self.has_written_factor, e.args))
+        return inside or e.op == "time"
+
+    def _is_scale(self, e: Expr) -> bool:
+        return (e.op == "const" and abs(e.value) != 1) or (e.op == "var" and self._variable(e) == LITERAL)
+
 
 def times(a: Finding, b: Finding) -> Finding:
     if isinstance(a, Unit) and isinstance(b, Unit):
@@ -178,23 +210,6 @@ def over(a: Finding, b: Finding) -> Finding:
     return times(a, b**-1 if isinstance(b, Unit) else b)
 
 
-def disagreement(code: str, how: str, a: Expr, unit_a: Unit, b: Expr, unit_b: Unit) -> UnitError:
-    """Both sides with their units, and the factor between them."""
-    message = f"units differ, {how}: {short(a)} is in {unit_a}, {short(b)} is in {unit_b}"
-    if unit_a.exponents == unit_b.exponents:
-        return UnitError("U004", message, f"one is {unit_a.factor / unit_b.factor:.6g} times the other: convert it")
-    ratio = unit_a / unit_b
-    if scaled := [side for side in (a, b) if has_written_factor(side)]:
-        missing = format_unit(Unit((ratio if scaled[0] is b else ratio**-1).exponents))
-        hint = f"if a number there is in {missing}, make it a parameter with that unit; or correct a declared unit"
-        return UnitError(code, message, hint, "warning")
-    if unit_a.soft or unit_b.soft:
-        hint = "declare the unit that was inferred here beside a number, or correct one"
-        return UnitError(code, message, hint, "warning")
-    missing = format_unit(Unit(ratio.exponents))
-    return UnitError(code, message, f"multiply {short(b)} by a quantity in {missing}, or correct a declared unit")
-
-
 def of_variable(unit: str, kind: str, variability: str) -> Finding:
     """The unit a declaration claims: Integers are counts, constants without unit are literals."""
     if unit:
@@ -202,20 +217,3 @@ def of_variable(unit: str, kind: str, variability: str) -> Finding:
     if kind == INTEGER:
         return _COUNT
     return LITERAL if variability == "constant" else UNKNOWN
-
-
-def has_written_factor(e: Expr) -> bool:
-    """Whether a number that somebody wrote scales `e`, or a part of it that has its unit: in `sin(314*time)` it may
-    well be a frequency, whose unit has no place to stand. A sign or a 1 is no scale; time alone is as if it had one."""
-    if e.op in ("*", "/"):
-        return any(_is_scale(a) or (a.op != "time" and has_written_factor(a)) for a in e.args)
-    if e.op in ("if", "smooth"):  # a condition, an order
-        return any(map(has_written_factor, e.args[1:]))
-    if e.op in ("annotated", "^") or (e.op == "call" and str(e.value) in ("sqrt", "abs")):
-        return has_written_factor(e.args[0])
-    inside = e.op in ("+", "-", "neg", "min", "max", "noEvent", "pre") and any(map(has_written_factor, e.args))
-    return inside or e.op == "time"
-
-
-def _is_scale(e: Expr) -> bool:
-    return e.op == "const" and abs(e.value) != 1

@@ -245,6 +245,9 @@ end M;""",
         ("Real N(unit=\"1/s\") = 7; parameter Real a = 0.7; parameter Real k(unit=\"1/s\") = 1;"
          " Real kLa(unit=\"1/s\") = k*(N/7.5)^a;", ["U003"]),
         ("Real u = 10*sin(time); Real i(unit=\"A\") = 10 + time;", ["U003", "U001"]),
+        ("constant Real g = 9.81; Real F(unit=\"N\") = 0.5*m*g; parameter Real m(unit=\"kg\") = 1;", ["U001"]),
+        ("constant Real g = 9.81; parameter Real m(unit=\"kg\") = 1; Real a(unit=\"m/s2\");"
+         " Real F(unit=\"N\") = 7; equation m*a = F - m*g;", ["U002"]),
         ("Real c(unit=\"EUR/kWh\") = 0.3; Real k(unit=\"A\") = 2*c;", ["W015"]),
     ],
 )  # fmt: skip
