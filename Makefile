@@ -124,7 +124,7 @@ ctest: setup
 	@$(call run_ctest,$(BUILD))
 
 pytest: setup
-	@$(PYTEST) -m "not slow"
+	@$(PYTEST) -m "not slow" --durations=20 --durations-min=10
 
 check: lint sanitize ctest ## All checks: format, lint, warnings as errors, sanitizers, every test
 	@$(PYTEST)

@@ -67,6 +67,21 @@ def refuse_truth(given: Mapping[str, Any], variables: Mapping[str, Variable]) ->
             raise UserError(f"{name} cannot be {str(value).lower()}: it is {variables[name].type}")
 
 
+def as_numbers(given: Mapping[str, Any], variables: Mapping[str, Variable]) -> dict[str, float]:
+    """Values of parameters and start values. Raises UserError for what is no number, or none of its variable's type."""
+    refuse_truth(given, variables)
+    return {name: _number(name, value) for name, value in given.items()}
+
+
+def _number(name: str, value: Any) -> float:
+    try:
+        if isinstance(value, str):
+            raise TypeError
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise UserError(f"{name} cannot be {str(value)[:40]!r}: that is no number") from None
+
+
 def uncovered(given: Mapping[str, Input], start: float, stop: float) -> list[str]:
     """A warning for each input whose samples end more than one sample's spacing before the run from `start` to `stop`
     (s) does, or begin later than it: there a sample is held."""

@@ -18,7 +18,7 @@ from lacuna.codegen.flatten import flatten
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.structure.report import dump as dump_structure
 from lacuna.errors import UserError
-from lacuna.inputs import Input, as_inputs, assumed, refuse_truth, uncovered
+from lacuna.inputs import Input, as_inputs, as_numbers, assumed, uncovered
 from lacuna.notebook import page, table, verbatim
 from lacuna.progress import Progress, silent, watching
 from lacuna.results import IncompleteRun, Result
@@ -108,7 +108,7 @@ def load(
     except Diagnostic as finding:
         if finding.code != NO_VALUE or not parameters:
             raise
-        values = {name: float(value) for name, value in parameters.items()}
+        values = as_numbers(parameters, {})
         return Model(source, source.compiled(values), values).with_parameters(parameters)
 
 
@@ -212,9 +212,9 @@ class Model:
         known = {n: v for n, v in self.variables.items() if v.kind == "parameter"}
         for name in parameters:
             self._refuse_input(name)
-        refuse_truth(parameters, known)
-        settable = {n: float(v) for n, v in parameters.items() if self._model.variable(n, "parameter", known).settable}
-        fixed = self._fixed | {n: float(v) for n, v in parameters.items() if n not in settable}
+        values = as_numbers(parameters, known)
+        settable = {n: v for n, v in values.items() if self._model.variable(n, "parameter", known).settable}
+        fixed = self._fixed | {n: v for n, v in values.items() if n not in settable}
         compiled = self._source.compiled(fixed) if fixed != self._fixed else self._compiled
         return Model(self._source, compiled, fixed, self._values | settable)
 
@@ -258,10 +258,10 @@ class Model:
         begin, end = model._span(start, stop)
         model._refuse_parameters(inputs or {})
         _refuse_step(step, solver)
-        clock = time.perf_counter()
+        clock, starts = time.perf_counter(), as_numbers(initial or {}, model.variables)
         run = runtime.simulate(
             model.differentiated if sensitivities else model._model, parameters=model._values,
-            inputs=as_inputs(inputs or {}, model.variables), initial=initial, start=begin, stop=end, solver=solver,
+            inputs=as_inputs(inputs or {}, model.variables), initial=starts, start=begin, stop=end, solver=solver,
             rtol=rtol, atol=atol, step=step, locate_events=locate_events, outputs=outputs, events=event_rows,
             interval=interval if interval is not None else model.interval or (end - begin) / POINTS,
             sensitivities=sensitivities, watch=watching(f"simulating {self.name}", begin, end, progress),

@@ -34,3 +34,13 @@ def test_an_absolute_tolerance_of_the_size_of_what_it_guards_is_refused(model: P
 def test_a_file_to_format_may_be_named_by_a_text(model: Path) -> None:
     assert lacuna.format_file(str(model))
     assert not lacuna.format_file(model)
+
+
+@pytest.mark.parametrize("value", ["true", "1", None, [1, 2], 10**400])
+def test_a_value_that_is_no_number_is_refused(model: Path, value: object) -> None:
+    loaded = lacuna.load(model)
+    name = next(n for n, v in loaded.variables.items() if v.kind == "parameter")
+    state = next(n for n, v in loaded.variables.items() if v.kind == "state")
+    for given in ({"parameters": {name: value}}, {"initial": {state: value}}):
+        with pytest.raises(lacuna.UserError, match="that is no number"):
+            loaded.simulate(stop=1, **given)
