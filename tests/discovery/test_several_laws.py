@@ -22,6 +22,7 @@ from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.explain import explain
+from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.fit import believed, fit
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import noise_of
@@ -39,11 +40,24 @@ from lacuna.discovery.steps import fitted
 
 from .test_efforts import BELIEVED, TORRICELLI, cascade
 
+TWO_LAWS = TORRICELLI.replace("q - k*upper", "q - k*upper - 2e-3*upper^3")
+together = pytest.mark.xdist_group("two laws of a cascade")
 
-def test_two_laws_at_two_places_are_found_at_both(tmp_path: Path) -> None:
+
+@pytest.fixture(scope="module")
+def result(tmp_path_factory: pytest.TempPathFactory) -> Explanation:
     """A root in the lower tank's outflow, and a loss from the upper one that grows with the cube of its level."""
-    truth = TORRICELLI.replace("q - k*upper", "q - k*upper - 2e-3*upper^3")
-    result = explain(load(cascade(tmp_path, truth)))
+    return explain(load(cascade(tmp_path_factory.mktemp("two_laws"), TWO_LAWS)))
+
+
+def searched(result: Explanation) -> Search:
+    """The search that has found what was explained."""
+    case, base, after = result.case, result.final, result.after
+    return Search(case, [], result.lead, result.floor, result.amendment, base, after, list(result.findings))
+
+
+@together
+def test_two_laws_at_two_places_are_found_at_both(result: Explanation) -> None:
     assert result.verdict == "missing_physics"
     assert {f.ranked.attachment.location for f in result.findings} == {"upper", "lower"}
     floor = np.sqrt(np.mean([f**2 for f in result.floor.values()]))
@@ -52,7 +66,7 @@ def test_two_laws_at_two_places_are_found_at_both(tmp_path: Path) -> None:
 
 def test_a_law_is_screened_beside_an_effort_at_another_place(tmp_path: Path) -> None:
     """What both leave is no law of the upper tank's level; beside an effort of any course in the lower one it is."""
-    case = load(cascade(tmp_path, TORRICELLI.replace("q - k*upper", "q - k*upper - 2e-3*upper^3")))
+    case = load(cascade(tmp_path, TWO_LAWS))
     told = fitted(case, lambda text: None)
     locator = Locator(case, opened(case, told.amendment, case.library(), ["A", "B", "k"]), told.base)
     pair = paired(Found(locator.ranked(), locator=locator), lambda text: None)
@@ -141,12 +155,10 @@ def test_a_law_that_another_is_a_function_of_stays() -> None:
     assert without(found, ranked, None) is None
 
 
-def test_a_term_that_stood_for_what_is_missing_elsewhere_goes(tmp_path: Path) -> None:
+@together
+def test_a_term_that_stood_for_what_is_missing_elsewhere_goes(result: Explanation) -> None:
     """A constant in the upper tank's law beside what is missing there: once the lower one's stands it is nothing."""
-    result = explain(load(cascade(tmp_path, TORRICELLI.replace("q - k*upper", "q - k*upper - 2e-3*upper^3"))))
-    search = Search(
-        result.case, [], result.lead, result.floor, result.amendment, result.final, result.after, result.findings
-    )
+    search = searched(result)
     k = next(k for k, f in enumerate(search.findings) if f.ranked.attachment.location == "upper")
     ranked = search.findings[k].ranked
     law, start = ranked.attachment.law, ranked.attachment.own_values(search.fit.point)
@@ -161,12 +173,10 @@ def test_a_term_that_stood_for_what_is_missing_elsewhere_goes(tmp_path: Path) ->
     assert [len(a.law.groups) for a in kept] == [len(richer.groups) - 1]
 
 
-def test_a_law_of_several_terms_is_found_anew_beside_the_others(tmp_path: Path) -> None:
+@together
+def test_a_law_of_several_terms_is_found_anew_beside_the_others(result: Explanation) -> None:
     """The cube of the upper tank's level, for which two other powers of it stood."""
-    result = explain(load(cascade(tmp_path, TORRICELLI.replace("q - k*upper", "q - k*upper - 2e-3*upper^3"))))
-    search = Search(
-        result.case, [], result.lead, result.floor, result.amendment, result.final, result.after, result.findings
-    )
+    search = searched(result)
     k = next(k for k, f in enumerate(search.findings) if f.ranked.attachment.location == "upper")
     site = search.findings[k].ranked.attachment.law.site
     level = next(v for v in site.variables if v.name == "upper" and not v.minus)
