@@ -52,7 +52,7 @@ def export_fmu(
 ) -> ExportedFmu:
     """Write `model` as an FMU to `path` (default: out/fmu/NAME.fmu), for this machine's platform, with its C sources.
 
-    `parameters` (SI units) become the FMU's start values; one that decides the structure is fixed in it. `type`: me
+    `parameters` (as declared) become the FMU's start values; one that decides the structure is fixed in it. `type`: me
     (model exchange, with directional derivatives), cs (co-simulation by `solver`, which the FMU carries) or both.
     Raises what `load` raises, and a user's error with the reason for what FMI cannot carry.
     """

@@ -8,6 +8,7 @@ import tomllib
 from typing import Any
 
 MOST_DIGITS = 18  # of a whole number in 64 bits, as TOML has them
+GREATEST = 1e150  # number: its square is a machine number, too, and so is that of its reciprocal
 LARGEST = 1 << 30  # bytes of a file that is read: a hundred signals for a quarter of an hour at 1 kHz as text
 
 

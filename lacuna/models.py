@@ -97,7 +97,7 @@ def load(
 
     `model` is a full name (`Lacuna.` may be left out), a .mo file, or the folder of a package; `class_name` picks a
     class in a file or package. `libraries` are folders of packages, folders around them, or .mo files; MODELICAPATH
-    and the package Lacuna come after them. `parameters` are values other than declared (SI units) for every run.
+    and the package Lacuna come after them. `parameters` are values other than declared, in their units, for every run.
     `data` are folders for files of data, beside those of the model and the libraries; with `allow_external` the C that
     a model's external functions name is compiled into it, and runs with your rights.
     Raises Diagnostic with file, line and hint where the model is wrong, UserError for an unknown parameter.

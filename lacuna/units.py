@@ -114,6 +114,7 @@ _UNPREFIXED = (
     "count", "counts", "pulse", "pulses", "in", "ft", "mi", "mph", "kph", "kn", "lb", "lbf", "kgf", "psi", "atm",
     "mmHg",
 )  # fmt: skip
+LONGEST = 100  # characters of a unit: a line of text; parentheses are read by recursion
 _TOKEN = re.compile(r"\s*([A-Za-z%]+|1(?![0-9.])|[/()]|\.(?![0-9])|\^?[+-]?[0-9]+(?:\.[0-9]+)?|\^\([^()]+\))")
 _POWER = re.compile(r"\^?\(?([+-]?[0-9]+(?:\.[0-9]+|/[1-9][0-9]*)?)\)?")
 _OTHERWISE = str.maketrans({
@@ -134,8 +135,13 @@ def parse_unit(text: str) -> Unit:
     """The unit that `text` means. Raises ValueError with a sentence for what cannot be read, UnknownSymbol where it can
     and is not known."""
     result = DIMENSIONLESS
-    for symbol, power in factors_of(text):
-        result = result * _symbol(symbol, text) ** power
+    try:
+        for symbol, power in factors_of(text):
+            result = result * _symbol(symbol, text) ** power
+    except OverflowError:
+        raise ValueError(f"{text!r} has a scale beyond all numbers") from None
+    if not 0 < (result.factor or 0.0) < math.inf:
+        raise ValueError(f"{text!r} has a scale beyond all numbers")
     return replace(result, text=text)
 
 
@@ -145,6 +151,8 @@ def factors_of(text: str) -> list[tuple[str, int | Fraction]]:
     `*`, a raised dot or a space for a product, parentheses anywhere, raised 2 and 3, and a dash for 1. Raises
     ValueError as parse_unit does, but for symbols that are not known."""
     tokens, rest = [], text.translate(_OTHERWISE).strip()
+    if len(rest) > LONGEST:
+        raise ValueError(f"a unit of {len(rest)} characters")
     rest = "1" if rest == "-" else rest
     while rest:
         if (found := _TOKEN.match(rest)) is None:
@@ -231,8 +239,8 @@ def _names() -> dict[Exponents, str]:
 
 def format_unit(unit: Unit) -> str:
     """A readable name: a common one where there is, else base units; another factor is shown before it."""
-    base = of_factors(zip(_BASE, unit.exponents, strict=True))
-    text = "1" if unit.dimensionless else _names().get(unit.exponents) or base
+    exponents = unit.exponents
+    text = "1" if unit.dimensionless else _names().get(exponents) or of_factors(zip(_BASE, exponents, strict=True))
     if unit.factor is not None and not math.isclose(unit.factor, 1.0, rel_tol=1e-9):
         text = f"{unit.factor:.6g} {text}"
     return text

@@ -21,7 +21,7 @@ import numpy as np
 
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis.doubts import UNITS, doubts_of
-from lacuna.given import require_file, text_of
+from lacuna.given import GREATEST, require_file, text_of
 from lacuna.rows import rows_of
 from lacuna.texts import decimal
 
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 EVENTS = ("", "replaced")
-MOST_USE = 1e150  # whose square is a machine number, too
 SEPARATORS = {";": "semicolon", "\t": "tab"}  # that other programs write
 FILES = ("history.csv", "history.parquet")
 TWO_SIDED_95 = 1.959964
@@ -230,9 +229,9 @@ class _Group:
         use, other = (reader.value(u) for u in (unit, UNITS[1 - UNITS.index(unit)]))
         if not use >= 0:
             raise reader.error(f"{unit} is {use:g}, {'no number' if math.isnan(use) else 'below zero'}")
-        if not use <= MOST_USE:
+        if not use <= GREATEST:
             raise reader.error(
-                f"{unit} is {use:g}, beyond {MOST_USE:g}: forecasts look further ahead, and weigh squares"
+                f"{unit} is {use:g}, beyond {GREATEST:g}: forecasts look further ahead, and weigh squares"
             )
         replaced = reader.event()
         if self.rows and self.rows[-1][1] >= use:

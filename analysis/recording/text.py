@@ -37,7 +37,6 @@ _SAMPLE = 200  # lines that decide the dialect
 _NAN = re.compile(r"(?<![A-Za-z])nan(?![A-Za-z])", re.IGNORECASE)
 _NUMBER = {mark: re.compile(rf"[+-]?(\d+[{mark}]?\d*|[{mark}]\d+)([eE][+-]?\d+)?|(?i:nan)|") for mark in ".,"}
 _CONDITION = re.compile(r'(?<![^,;\t| ])"?\b(true|false)\b"?(?![^,;\t| ])', re.IGNORECASE)
-_DIGIT = re.compile("[0-9]")
 _NO_TEXT = re.compile("[\0-\x08\x0e-\x1f\x7f]")  # control characters, which a terminal would obey
 _NO_NAME = re.compile(r"[+-]?([0-9.,]+([eE][+-]?[0-9]+)?|(?i:inf|infinity|nan))")
 # A unit as it stands in a row of its own, such as s, rad/s, 1/min, N.m, degC: no blanks, few characters.
@@ -90,7 +89,7 @@ def read_text(path: Path) -> TextTable:
     text, encoding = _decoded(path)
     written = text.splitlines()
     instants_of = _instants(path, written)
-    lines = [_with_conditions(line) for line in instants_of.lines]
+    lines = _with_conditions(instants_of.lines, text.lower())
     separator, decimal = _marks(path, lines, written)
     first = next(i for i, line in enumerate(lines) if _is_row_of_numbers(_fields(line, separator), decimal))
     above = [_fields(line, separator) for line in written[:first]]
@@ -196,9 +195,11 @@ def _decoded(path: Path) -> tuple[str, str]:
     return text, encoding
 
 
-def _with_conditions(line: str) -> str:
-    """A line with 1 and 0 where conditions are written as true and false."""
-    return _CONDITION.sub(lambda found: str(int(found[1].lower() == "true")), line) if _DIGIT.search(line) else line
+def _with_conditions(lines: list[str], text: str) -> list[str]:
+    """Rows with 1 and 0 where conditions are written as true and false, if any are in the `text`, in small letters."""
+    if "true" not in text and "false" not in text:
+        return lines
+    return [_CONDITION.sub(lambda f: "01"[f[1][0] in "tT"], s) if any(map(str.isdigit, s)) else s for s in lines]
 
 
 def _fields(line: str, separator: str) -> list[str]:

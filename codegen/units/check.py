@@ -51,7 +51,8 @@ def drop_unread(model: flat.FlatModel) -> None:
     """Variables whose unit cannot be read declare none to all that comes after the check."""
     for v in model.variables.values():
         try:
-            v.unit = v.unit and parse_unit(v.unit).text
+            if v.unit:
+                parse_unit(v.unit)
         except ValueError:
             v.unit = ""
 
@@ -194,26 +195,26 @@ class _Check:
         pairs = [(e.lhs, e.rhs) for e in pending]
         pairs += [(var(n), b) for n, b in bindings if self.units[n] == UNKNOWN and b.op != "const"]
         scaled = self._inference().has_written_factor
-        plain = [pair for pair in pairs if not any(map(scaled, pair))]
-        self._infer_from(plain)
-        self._infer_from(pairs)
+        sides = [(lhs, rhs, scaled(lhs) or scaled(rhs)) for lhs, rhs in pairs]
+        self._infer_from([pair for pair in sides if not pair[2]])
+        self._infer_from(sides)
 
-    def _infer_from(self, pairs: list[tuple[Expr, Expr]]) -> None:
+    def _infer_from(self, pairs: list[tuple[Expr, Expr, bool]]) -> None:
+        """As far as these sides of equations, and whether what they tell is soft, lead."""
         changed = True
         while changed and pairs:
             changed = False
             inference = self._inference()
             rest = []
-            for lhs, rhs in pairs:
+            for lhs, rhs, soft in pairs:
                 try:
-                    soft = inference.has_written_factor(lhs) or inference.has_written_factor(rhs)
                     left, right = (_softer(inference.of(side), soft) for side in (lhs, rhs))
                     solved = self._solve(lhs, right, inference) | self._solve(rhs, left, inference)
                 except UnitError:
                     continue
                 changed = changed or solved
                 if self._has_unknown(lhs) or self._has_unknown(rhs):
-                    rest.append((lhs, rhs))
+                    rest.append((lhs, rhs, soft))
             pairs = rest
 
     def _has_unknown(self, e: Expr) -> bool:

@@ -44,6 +44,7 @@ class UnitInference:
     def __init__(self, variable: Callable[[Expr], Finding], function: Callable[[str], str]) -> None:
         self._variable, self._function = variable, function
         self._memo: dict[Expr, Finding] = {}
+        self._scaled: dict[Expr, bool] = {}
 
     def of(self, e: Expr) -> Finding:
         """Raises UnitError where units inside `e` contradict each other."""
@@ -184,6 +185,12 @@ class UnitInference:
         """Whether a number that somebody wrote scales `e`, or a part of it that has its unit: in `sin(314*time)` it may
         well be a frequency, whose unit has no place to stand. A sign or a 1 is no scale; a constant without unit
         is (`m*g`), and time alone is as if it had one."""
+        found = self._scaled.get(e)
+        if found is None:
+            found = self._scaled[e] = self._is_scaled(e)
+        return found
+
+    def _is_scaled(self, e: Expr) -> bool:
         if e.op in ("*", "/"):
             return any(self._is_scale(a) or (a.op != "time" and self.has_written_factor(a)) for a in e.args)
         if e.op in ("if", "smooth"):  # a condition, an order

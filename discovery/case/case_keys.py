@@ -9,14 +9,12 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from lacuna.given import GREATEST
 from lacuna.suggest import did_you_mean
 
 
 class KeyProblem(Exception):
     """An entry that case.toml may not have: the message names it and says what was expected."""
-
-
-GREATEST = 1e150  # whose square is a machine number, too: fits weigh squares; so is that of its reciprocal
 
 
 def _is_number(value: Any) -> bool:

@@ -16,12 +16,12 @@ from lacuna.analysis.recording.channel import RecordingError, on_one_time
 from lacuna.analysis.recording.formats import read_recorded
 from lacuna.codegen.flatten.model import flatten
 from lacuna.codegen.library.classes import Library
-from lacuna.discovery.case.case_keys import GREATEST, KeyProblem, check, with_dots
+from lacuna.discovery.case.case_keys import KeyProblem, check, with_dots
 from lacuna.discovery.case.case_model import CaseModel, case_model, written_values
 from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.case.signals import Signal, of_variable, signal_of
-from lacuna.given import toml_of
+from lacuna.given import GREATEST, toml_of
 from lacuna.runtime import RecordedInput
 
 DEFAULT_UNCERTAINTY = 0.05  # believed relative 1-sigma of a parameter that case.toml does not mention

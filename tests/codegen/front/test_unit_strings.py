@@ -58,7 +58,24 @@ def test_unit_strings(text: str, same_as: str, factor: float) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["furlong", "m//s", "m/", "(m", "m)", "2m", "m^", "m^s", "m^(1/0)", "N..m", "kkg", "degF", ""]
+    "text",
+    [
+        "furlong",
+        "m//s",
+        "m/",
+        "(m",
+        "m)",
+        "2m",
+        "m^",
+        "m^s",
+        "m^(1/0)",
+        "N..m",
+        "kkg",
+        "degF",
+        "",
+        "(" * 60 + "m" + ")" * 60,
+        "kN9999",
+    ],
 )
 def test_what_is_no_unit(text: str) -> None:
     with pytest.raises(ValueError, match=r".+"):
