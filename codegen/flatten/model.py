@@ -37,6 +37,7 @@ from lacuna.codegen.flatten.names.modifiers import Modifier
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.sections import flatten_items
 from lacuna.codegen.library.classes import MODEL_KINDS, Library
+from lacuna.codegen.library.renamed import warnings_of
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.symbolic.rewrite import assigned, expressions, without_marks
@@ -90,7 +91,7 @@ def flatten(
     mark_evaluated(model, context.evaluated)
     model.experiment = experiment_of(top)
     model = _check_units(model, context, units)
-    model.files, model.warnings = {**library.files, **context.files}, context.warnings
+    model.files, model.warnings = {**library.files, **context.files}, [*context.warnings, *warnings_of(library)]
     model.foreign = context.table(flat.ForeignCode)
     context.finish()
     return model

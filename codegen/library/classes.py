@@ -14,6 +14,8 @@ from pathlib import Path
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.library.access import NONE, Access
 from lacuna.codegen.library.folders import only_class, refuse_both, refuse_twice
+from lacuna.codegen.library.predefined import PREDEFINED
+from lacuna.codegen.library.renamed import OLD_NAMES, renamed
 from lacuna.codegen.library.search_path import (
     MODEL_FOLDER,
     PACKAGE_FILE,
@@ -31,14 +33,6 @@ from lacuna.codegen.syntax import ast, parse
 
 HOME_PACKAGE = "Lacuna"
 MODEL_KINDS = ("model", "block", "class")  # what can be simulated
-
-_PREDEFINED = """
-type StateSelect = enumeration(never, avoid, default, prefer, always);
-type AssertionLevel = enumeration(warning, error);
-partial class ExternalObject end ExternalObject;
-"""  # Modelica 3.6, 4.9.8, 8.3.7 and 12.9.7
-PREDEFINED = {cls.name: cls for cls in parse(_PREDEFINED, "")}
-
 
 @lru_cache(maxsize=4096)
 def _parse_cached(file: str, text: str) -> tuple[ast.Class, ...]:
@@ -63,6 +57,7 @@ class Library:
         self._members: dict[tuple[int, str], ast.Class | None] = {}  # None where there is no file
         self._own: set[Path] = set()  # files and package folders that were named by their path
         self._packages: dict[str, str] = {}  # see foreign_package
+        self.renamed: dict[str, str] = {}  # old names that were used, and what they are read as
         self.views: dict[tuple[object, ...], ast.Class] = {}  # see flatten/names/views.py
         self.bases: dict[int, list[ast.Class]] = {}  # of classes that were asked for, by identity
         self.meanings: dict[tuple[int, str, bool, bool], ast.Class] = {}  # see find_first in flatten/names/scope.py
@@ -110,7 +105,7 @@ class Library:
             if key not in self._members:
                 self._members[key] = self._top_level(name) if cls is self.root else self._in_folder(cls, name)
             found = self._members[key]
-        return found
+        return renamed(self, cls, name) if found is None and name in OLD_NAMES else found
 
     def _top_level(self, name: str) -> ast.Class | None:
         for place in self._places:

@@ -9,7 +9,8 @@ from lacuna.codegen.flatten.names.component import Component
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.values import Value
 from lacuna.codegen.flatten.names.views import constrain, is_specialised, member, modified, redeclarations, view
-from lacuna.codegen.library.classes import PREDEFINED, Library
+from lacuna.codegen.library.classes import Library
+from lacuna.codegen.library.predefined import PREDEFINED
 from lacuna.codegen.library.search_path import WITHOUT_MODELICA
 from lacuna.codegen.syntax import ast
 from lacuna.suggest import did_you_mean

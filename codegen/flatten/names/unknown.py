@@ -39,8 +39,20 @@ def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> 
         current = own_or_inherited(library, current, name)
     hint = did_you_mean(missing, known) or held or _elsewhere(library, ref)
     if current is None and missing == ref.names[0] in visible_classes(library, cls):
-        hint = f"an encapsulated class around it sees only what it imports: import ...{missing};"
+        imported = _imported_as(cls, missing)
+        hint = f"{missing} is imported as {imported}, which there is not" if imported else f"an encapsulated class around it sees only what it imports: import ...{missing};"
     return Diagnostic("R001", f"there is no {what} {ref}", ref.span, hint)
+
+
+def _imported_as(cls: ast.Class, name: str) -> ast.Ref | None:
+    """What an import that `cls` sees would bring in under this name."""
+    current: ast.Class | None = cls
+    while current is not None:
+        for item in current.imports:
+            if not item.every and name == (item.alias or item.path.names[-1]):
+                return item.path
+        current = None if current.encapsulated else current.parent
+    return None
 
 
 def _elsewhere(library: Library, ref: ast.Ref) -> str:

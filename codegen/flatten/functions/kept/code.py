@@ -11,6 +11,7 @@ from lacuna.codegen.flatten.expressions.constants import AtRunTime, evaluate
 from lacuna.codegen.flatten.expressions.elements import element, local_value
 from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.functions.interpret import interpret
+from lacuna.codegen.flatten.functions.kept.function_arguments import FunctionArguments, split
 from lacuna.codegen.flatten.functions.kept.parts import matched, parts, rebuilt, variables_of
 from lacuna.codegen.flatten.functions.kept.whole_calls import element_name
 from lacuna.codegen.flatten.functions.kept.writer import Writer
@@ -37,6 +38,7 @@ class Source:
     signature: Signature
     inputs: dict[str, Value]
     fixed: dict[str, Value]  # arguments that it is made for: what sizes follow from
+    functions: FunctionArguments  # those among its arguments; what they have bound is among the inputs
     results: list[Value]
     output: int = 0
     element: int = 0
@@ -51,9 +53,10 @@ def run(name: str, arguments: list[Expr], context: Context, span: Span) -> Expr:
     source = context.table(Sources)[name]
     variables = [v for n, whole in source.inputs.items() for v in parts(n, whole).values()]
     given = (Array(v.shape, a.args) if isinstance(v, Array) else a for v, a in zip(variables, arguments, strict=True))
-    bound = source.fixed | {n: rebuilt(whole, given) for n, whole in source.inputs.items()}
+    known = {n: rebuilt(whole, given) for n, whole in source.inputs.items()}
+    bound = source.fixed | known | source.functions.values(known)
     try:
-        results = interpret(source.signature, bound, context, span)
+        results = interpret(source.signature, {i.name: bound[i.name] for i in source.signature.inputs}, context, span)
     except AtRunTime as reason:
         message = f"{name} cannot be evaluated at translation: {reason.args[0]}"
         raise Diagnostic("F021", message, span, "give it constants and parameters only") from None
@@ -77,7 +80,9 @@ def run_or_emit(cls: ast.Class, arguments: dict[str, Value], context: Context, s
 
 def emitted_call(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
     """Calls that give the results of the function, one for each scalar of each result."""
-    base = _base(signature, arguments, context, span)
+    functions = split(signature, arguments, context)
+    arguments = {n: v for n, v in arguments.items() if n not in functions.functions} | functions.bound
+    base = _base(signature, arguments, functions, context, span)
     function, source = context.functions[base], context.table(Sources)[base]
     call_arguments = [
         ex.array(*v.items) if isinstance(v, Array) else v for v in _matching(source.inputs, arguments, span)
@@ -140,34 +145,38 @@ def _argument(name: str, function: flat.Function) -> Expr:
     return ex.array(*value.items) if isinstance(value, Array) else value
 
 
-def _base(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> str:
+def _base(
+    signature: Signature, arguments: dict[str, Value], functions: FunctionArguments, context: Context, span: Span
+) -> str:
     """The name of the function made for arguments of these sizes, and anew for what its sizes follow; where its course
     follows whole numbers that are known, for each of them."""
     fixed = {n: v for n, v in arguments.items() if _is_fixed(signature, n, v)}
     try:
-        return _made(signature, arguments, fixed, context, span)
+        return _made(signature, arguments, fixed, functions, context, span)
     except Diagnostic as error:
         whole = {n: v for n, v in arguments.items() if n not in fixed and _are_counts(v)}
         if error.code != "F036" or not whole:
             raise
-        return _made(signature, arguments, fixed | whole, context, span)
+        return _made(signature, arguments, fixed | whole, functions, context, span)
 
 
 def _made(
-    signature: Signature, arguments: dict[str, Value], fixed: dict[str, Value], context: Context, span: Span
-) -> str:
-    cls, kinds = signature.cls, {local.name: local.type for local in signature.inputs}
+    signature: Signature, arguments: dict[str, Value], fixed: dict[str, Value], functions: FunctionArguments,
+    context: Context, span: Span,
+) -> str:  # fmt: skip
+    cls, kinds = signature.cls, {local.name: local.type for local in signature.inputs} | functions.kinds
     numbers = {n: v for n, v in arguments.items() if n not in fixed}
     inputs = {n: variables_of(n, kinds[n], v, context, span) for n, v in numbers.items()}
     shapes = [shape_of(v) for n, whole in inputs.items() for v in parts(n, whole).values()]
     sizes = ",".join("x".join(map(str, s)) for s in shapes if s)
     name = (f"{cls.path}[{sizes}]" if sizes else cls.path) + (f"({_listed(fixed)})" if fixed else "")
+    name += f"({functions.names})" if functions.functions else ""
     if name not in context.functions:
         for n, v in numbers.items():
             if any(isinstance(s, str) for s in scalars(v)):
                 hint = "decide by an enumeration or a Boolean"
                 raise Diagnostic("F036", f"{cls.name} has the String input {n} and runs at run time", span, hint)
-        _emit(name, signature, inputs, fixed, context, span)
+        _emit(name, Source(signature, inputs, fixed, functions, []), context, span)
     return name
 
 
@@ -194,18 +203,20 @@ def _is_foreign(signature: Signature) -> bool:
     return signature.external is not None and signature.external.external.function not in GENERATORS
 
 
-def _emit(
-    name: str, signature: Signature, inputs: dict[str, Value], fixed: dict[str, Value], context: Context, span: Span
-) -> None:
+def _emit(name: str, source: Source, context: Context, span: Span) -> None:
+    signature, inputs, fixed = source.signature, source.inputs, source.fixed
     cls = signature.cls
     names = tuple(n for i, v in inputs.items() for n in parts(i, v))
     function = flat.Function(name, names, (), {}, {}, {}, [], cls.span)
     context.functions[name] = function
-    source = context.table(Sources)[name] = Source(signature, inputs, fixed, [])
+    context.table(Sources)[name] = source
     scope = Scope(context, signature.written_in, None, dict(fixed), in_function=True, pure=not cls.impure)
     writer = Writer(function, scope)
+    for bound in source.functions.bound:
+        writer.declare(bound, inputs[bound])
+    writer.scope.locals |= source.functions.values(inputs)
     try:
-        for local in (x for x in signature.in_order if x.name not in fixed):
+        for local in (x for x in signature.in_order if x.name not in writer.scope.locals):
             number = _settled(local, signature, writer.scope)
             if number is None:
                 writer.declare_local(local, inputs)
