@@ -15,6 +15,7 @@ from lacuna.codegen import cache, flat
 from lacuna.codegen.dae import events, hybrid
 from lacuna.codegen.dae.discrete_starts import discrete_starts
 from lacuna.codegen.dae.divisions import divisions
+from lacuna.codegen.dae.followers import followers
 from lacuna.codegen.dae.free_parameters import free_parameters
 from lacuna.codegen.dae.guards import guard_shapes
 from lacuna.codegen.dae.initial import initial_system
@@ -100,7 +101,8 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     events.refuse_reinit(steps, system.states)
     tearing = Tearing(DeclaredValues(system.model))
     explicit = report.run("matching, BLT, tearing", causalise, system.rows, system.unknowns, tearing)
-    repeated = report.run("hybrid", events.follow, steps, explicit)
+    compare = report.run("hybrid", followers, steps, explicit, relations)
+    repeated = report.run("hybrid", events.follow, steps, explicit) or bool(compare)
     residual = report.run("residual form", residual_form, system, explicit, tearing)
     matrix = report.run("jacobian", jacobian, residual, system)
     initial = report.run("initial system", initial_system, system, system.model.initial_equations, tearing)
@@ -112,7 +114,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     report.warnings += [*declared.warnings, *initial.warnings]
     return Prepared(
         declared, aliases.representative, system, Storage(system), relations, frozen.samples, steps, explicit,
-        residual, matrix, initial, sizes, quotients, shapes, delayed, carried, repeated,
+        residual, matrix, initial, sizes, quotients, shapes, delayed, carried, repeated, compare,
     )  # fmt: skip
 
 

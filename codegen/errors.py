@@ -54,6 +54,7 @@ class Diagnostic(Exception):
     notes: list[tuple[Span, str]] = field(default_factory=list)
     severity: str = "error"
     others: list[Diagnostic] = field(default_factory=list)  # further findings, independent of this one
+    cut: bool = False  # there may be more than the others: nobody looked on
 
     def __str__(self) -> str:
         parts = [f"{self.span}: " if self.span else "", f"{self.severity}[{self.code}]: {self.message}"]
@@ -66,6 +67,8 @@ class Diagnostic(Exception):
         if self.hint:
             text.append(f"  hint: {self.hint}")
         text += map(str, self.others)
+        if self.cut:
+            text.append(f"these are the first {len(self.others) + 1}; there may be more")
         return "\n".join(text)
 
 

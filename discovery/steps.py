@@ -12,6 +12,7 @@ from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.gaps import without_gaps
 from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.case.recordings_check import Problem, check_case
+from lacuna.discovery.case.spikes import without_spikes
 from lacuna.discovery.case.thinning import said_of, thinned
 from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment
@@ -58,7 +59,7 @@ def prepared(case: Case, without: tuple[str, ...] = ()) -> Explanation:
     `reason` where they are of no use."""
     result = Explanation(case, [p for p in check_case(case) if p.kind not in without])
     if _trusted(result, "the recordings cannot be trusted"):
-        whole = without_gaps(case)
+        whole = without_gaps(without_spikes(case))
         result.case = thinned(whole, noise_of(whole))
         result.problems += said_of(result.case)
     return result
@@ -148,15 +149,16 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
     unbegun = _search(result, [])
     if not unbegun.settled():
         unbegun.effects = catalogue.read(library)
-    places_known = begun_open(unbegun, library, progress)
 
     def located(found: Found) -> None:
         result.opened = found
 
     search = _begun(unbegun)
     shafts = trackable(result.case, result.base.machine.model, result.amendment.structure)[:1]
-    search.restarts = bool(shafts)
     try:
+        places_known = begun_open(unbegun, library, progress)
+        search = _begun(unbegun)
+        search.restarts = bool(shafts)
         search.run(progress, most=1)
         held = unbegun
         if search.lost():

@@ -17,6 +17,7 @@ STATUS = (
 )  # fmt: skip
 EVENT_KINDS = ("state", "time", "sample", "terminate")
 FLAG_KINDS = ("grazing", "order", "non_finite", "rounding", "fold", "arrival")
+OF_TIME = 1  # a bit of the kind of a relation
 STORAGE = ("state", "algebraic", "discrete", "parameter", "input", "derivative")
 TYPES = ("Real", "Integer", "Boolean")
 
@@ -36,7 +37,7 @@ class CEquation(Structure):
 
 
 class CRelation(Structure):
-    _fields_ = [("source", CEquation), ("is_time", c_int)]
+    _fields_ = [("source", CEquation), ("kind", c_int)]
 
 
 COUNTS = (

@@ -9,7 +9,7 @@ from pathlib import Path
 import weakref
 
 from lacuna.runtime.errors import SimulationError, UnknownNameError
-from lacuna.runtime.library import STORAGE, TYPES, library
+from lacuna.runtime.library import OF_TIME, STORAGE, TYPES, library
 
 MESSAGE_SIZE = 600
 
@@ -144,7 +144,7 @@ class Model:
     @cached_property
     def time_relations(self) -> list[bool]:
         """For each relation, whether it depends on time, parameters and discretes alone: no root switches it."""
-        return [bool(self._descriptor.relations[i].is_time) for i in range(self._descriptor.n_rel)]
+        return [bool(self._descriptor.relations[i].kind & OF_TIME) for i in range(self._descriptor.n_rel)]
 
     @cached_property
     def messages(self) -> list[str]:

@@ -19,6 +19,7 @@ from lacuna.analysis.recording.channel import (
     on_one_time,
 )
 
+_MISSING = ["", "nan", "NaN", "#N/A"]  # and nothing that a channel may be called, such as NA
 _ABOUT = "docProps/core.xml"
 _MOMENT, _EPOCH = re.compile(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?"), b"1980-01-01T00:00:00"
 
@@ -27,7 +28,7 @@ def read(path: Path) -> Recorded:
     import pandas
 
     try:
-        sheet = pandas.read_excel(path, header=None)
+        sheet = pandas.read_excel(path, header=None, keep_default_na=False, na_values=_MISSING)
     except ImportError:
         raise
     except Exception as error:  # a damaged file may trip its parser anywhere
@@ -81,13 +82,24 @@ def _are_units(rows: np.ndarray, first: int) -> bool:
 
 
 def write(recorded: Recorded, path: Path) -> None:
-    """Names in the first row, units in the second."""
-    import pandas
+    """Names in the first row, units in the second. Texts are texts, whatever they begin with; numbers keep all digits."""
+    from openpyxl import Workbook
+    from openpyxl.cell import WriteOnlyCell
+
+    book = Workbook(write_only=True)
+    sheet = book.create_sheet("Sheet1")
+
+    def cell(value: str, kind: str) -> WriteOnlyCell:
+        made = WriteOnlyCell(sheet, value)
+        made.data_type = kind  # not what the text looks like: a formula, an error
+        return made
 
     time, columns = on_one_time(recorded.channels)
-    rows = [["time", *(c.name for c in recorded.channels)], ["s", *(c.unit for c in recorded.channels)]]
-    rows += [list(row) for row in zip(time.tolist(), *(column.tolist() for column in columns), strict=True)]
-    pandas.DataFrame(rows).to_excel(path, header=False, index=False)
+    for texts in (["time", *(c.name for c in recorded.channels)], ["s", *(c.unit for c in recorded.channels)]):
+        sheet.append([cell(text, "s") if text else None for text in texts])
+    for row in zip(time.tolist(), *(column.tolist() for column in columns), strict=True):
+        sheet.append([None if value != value else cell(repr(value), "n") for value in row])
+    book.save(path)
     _without_dates(path)
 
 

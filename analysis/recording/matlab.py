@@ -23,10 +23,14 @@ def read(path: Path) -> Recorded:
     known = {name for name, value in content.items() if value is not None}
     if {"names", "data", "time"} <= known:
         names, units = _texts(content["names"]), _texts(content.get("units", []))
-        table = np.atleast_2d(np.asarray(content["data"], float))
-        rows = np.vstack(
-            [np.ravel(content["time"]).astype(float)[None, :], table.T if len(table) != len(names) else table]
-        )
+        if np.iscomplexobj(content["data"]):
+            raise RecordingError(f"{path}: its data are complex; a recording is of real numbers")
+        table, time = np.atleast_2d(np.asarray(content["data"], float)), np.ravel(content["time"]).astype(float)
+        columns = table.T if table.shape == (len(time), len(names)) else table
+        if columns.shape != (len(names), len(time)):
+            found = f"{len(names)} names, {len(time)} times and data of {' by '.join(map(str, table.shape))}"
+            raise RecordingError(f"{path}: {found} do not go together")
+        rows = np.vstack([time[None, :], columns])
         return from_table(path, ["time", *names], ["s", *(units or [""] * len(names))], rows)
     if {"name", "dataInfo", "data_2"} <= known:
         return _trajectories(path, content)

@@ -76,7 +76,7 @@ def follow(steps: Sequence[EventStep], explicit: Sequence[Step]) -> bool:
         return False
     _refuse_circles([s for step in steps if isinstance(step, flat.When) for s in _assignments(step)], explicit)
     found = following(explicit, begun)
-    return any(not found.isdisjoint(leaves(e)) for step in steps for e in _expressions(step))
+    return any(not found.isdisjoint(leaves(e)) for step in steps for e in expressions_of_step(step))
 
 
 def refuse_reinit(steps: Sequence[EventStep], states: Collection[str]) -> None:
@@ -90,7 +90,7 @@ def refuse_reinit(steps: Sequence[EventStep], states: Collection[str]) -> None:
 def reads_arrival(steps: Sequence[EventStep]) -> bool:
     """Whether a step reads pre(y) of a continuous variable: targets aside, what has a value before is discrete."""
     set_there = {n for step in steps for n in targets(step)}
-    pres = (n for step in steps for e in _expressions(step) for n in leaves(e) if n.op == "pre")
+    pres = (n for step in steps for e in expressions_of_step(step) for n in leaves(e) if n.op == "pre")
     return any(not _is(n.args[0], set_there) for n in pres)
 
 
@@ -163,14 +163,14 @@ def targets(step: EventStep) -> tuple[str, ...]:
     return tuple(assigned([step])) if isinstance(step, flat.When) else step.targets
 
 
-def _expressions(step: EventStep) -> list[Expr]:
+def expressions_of_step(step: EventStep) -> list[Expr]:
     if isinstance(step, DiscreteEquation):
         return [step.value]
     return list(expressions([step] if isinstance(step, flat.When) else step.statements))
 
 
 def _reads(step: EventStep) -> set[str]:
-    return {str(n.value) for e in _expressions(step) for n in leaves(e) if n.op == "var"}
+    return {str(n.value) for e in expressions_of_step(step) for n in leaves(e) if n.op == "var"}
 
 
 def _reads_itself(step: EventStep) -> bool:

@@ -38,7 +38,8 @@ class Prepared:
     guards: GuardShapes
     delays: list[Delay] = field(default_factory=list)
     transports: list[Transport] = field(default_factory=list)
-    events_follow: bool = False  # through equations, what they set themselves
+    events_follow: bool = False  # through equations or relations, what they set themselves
+    followers: frozenset[int] = frozenset()  # numbers of relations, see followers.py
     hash: str = ""
 
     @property

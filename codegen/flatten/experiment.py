@@ -14,7 +14,12 @@ from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.syntax import ast
 
 _FIELDS = {"StartTime": "start_time", "StopTime": "stop_time", "Tolerance": "tolerance", "Interval": "interval"}
-_END = {"Tolerance": (1.0, "above 0 and below 1"), "Interval": (float("inf"), "above 0")}  # what it stays below
+_INTERVALS = "NumberOfIntervals"  # of other tools, in place of Interval
+_END = {
+    _INTERVALS: (float("inf"), "above 0"),
+    "Tolerance": (1.0, "above 0 and below 1"),
+    "Interval": (float("inf"), "above 0"),
+}  # what it stays below
 
 
 def experiment_of(top: Instance) -> flat.Experiment:
@@ -28,13 +33,20 @@ def experiment_of(top: Instance) -> flat.Experiment:
         if found:
             entries = from_tree(ast.Modification(found[0].span, arguments=found), Scope(top.context, cls, top))
             said = entries.children["experiment"].children
-            unknown = [a for a in found[0].modification.arguments if a.name not in _FIELDS and a.name[:2] != "__"]
+            unknown = [
+                a
+                for a in found[0].modification.arguments
+                if a.name not in (*_FIELDS, _INTERVALS) and a.name[:2] != "__"
+            ]
             warn(unknown, "an experiment has no {}", list(_FIELDS), top.context)
             for name, entry in said.items():
                 if name in _FIELDS and entry.value is not None:
                     setattr(result, _FIELDS[name], _number(name, entry, top))
             if "StopTime" in said:
                 _refuse_backwards(result, found[0])
+            if _INTERVALS in said and "Interval" not in said and result.stop_time > result.start_time:
+                span = result.stop_time - result.start_time
+                result.interval = span / _number(_INTERVALS, said[_INTERVALS], top)
             return result
     return result
 

@@ -34,6 +34,7 @@ from lacuna.codegen.syntax import ast, parse
 HOME_PACKAGE = "Lacuna"
 MODEL_KINDS = ("model", "block", "class")  # what can be simulated
 
+
 @lru_cache(maxsize=4096)
 def _parse_cached(file: str, text: str) -> tuple[ast.Class, ...]:
     return tuple(parse(text, file))

@@ -39,6 +39,8 @@ def renamed(library: Library, cls: ast.Class, name: str) -> ast.Class | None:
 def warnings_of(library: Library) -> list[Diagnostic]:
     """One for each old name that was read as the new one."""
     return [
-        Diagnostic("W016", f"{old} of version 3 of the library is read as {new}", hint=f"write {new}", severity="warning")
+        Diagnostic(
+            "W016", f"{old} of version 3 of the library is read as {new}", hint=f"write {new}", severity="warning"
+        )
         for old, new in library.renamed.items()
     ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from dataclasses import replace
 
 from lacuna.codegen import flat
@@ -92,6 +93,8 @@ class _Check:
             self._note(Diagnostic("W014", message, v.span, f'unit="{meant}"', severity="warning"))
 
     def run(self, arguments: Iterable[Argument]) -> list[Diagnostic]:
+        arguments = list(arguments)
+        self._take_of_inputs(arguments)
         self._infer_unknown()
         inference = self._inference()
         for e in (*self.model.equations, *self.model.initial_equations):
@@ -184,6 +187,13 @@ class _Check:
             found = self.units[v.name]
             if not v.unit and v.type == REAL and isinstance(found, Unit) and found.factor == 1.0:
                 v.inferred_unit = format_unit(found)
+
+    def _take_of_inputs(self, arguments: list[Argument]) -> None:
+        """A variable without a unit that is handed to a function has that of the input."""
+        for value, unit, _, _ in arguments:
+            if value.op == "var" and self.units.get(str(value.value)) == UNKNOWN:
+                with suppress(ValueError):  # told where the argument is checked
+                    self.units[str(value.value)] = parse_unit(unit)
 
     def _infer_unknown(self) -> None:
         """Units of variables that declare none, from equations that leave one choice; to a fixed point. First from

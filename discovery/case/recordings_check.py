@@ -15,6 +15,7 @@ from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.case.gaps import GAP, MIN_SAMPLES, gaps
 from lacuna.discovery.case.noise import level, quantum
 from lacuna.discovery.case.signals import Signal
+from lacuna.discovery.case.spikes import spikes
 
 FROZEN_RUN = 25  # equal samples in a row that noise above the resolution cannot give
 AT_REST = 8.0  # noise levels around zero, within which a signal that comes to rest, or leaves it, may be
@@ -61,7 +62,7 @@ def check_recording(recording: Recording, signals: dict[str, Signal]) -> list[Pr
             seen[seen] = ~_rests(values[seen], signal)
             own = Recording(recording.name, recording.time[seen], {signal.column: values[seen]})
             problems += _clipped(own, signal, values[seen]) or _frozen(own, signal, values[seen])
-            problems += _outliers(own, signal, values[seen])
+            problems += _outliers(recording, signal, values)
     return problems
 
 
@@ -188,20 +189,12 @@ def _clipped(recording: Recording, signal: Signal, values: np.ndarray) -> list[P
 
 
 def _outliers(recording: Recording, signal: Signal, values: np.ndarray) -> list[Problem]:
-    """Single samples that leave and return at once, far outside the signal's own steps (but for a few of these)."""
-    left = values[1:-1] - values[:-2]
-    right = values[1:-1] - values[2:]
-    size = np.where(left * right > 0, np.minimum(np.abs(left), np.abs(right)), 0.0)
-    steps = np.sort(np.abs(np.diff(values[np.isfinite(values)])))
-    few = max(6, len(steps) // 1000)
-    if len(steps) <= few:
+    found, size = spikes(values)
+    if not len(found):
         return []
-    usual = max(float(steps[-1 - few]), 1e-300)
-    spikes = np.flatnonzero(np.nan_to_num(size) > 8 * usual)
-    if not len(spikes):
-        return []
-    text = f"{len(spikes)} single samples jump by {np.nanmax(size):.4g} and back"
-    return [Problem("outlier", recording.name, signal.column, float(recording.time[spikes[0] + 1]), text, False)]
+    count = "1 single sample jumps" if len(found) == 1 else f"{len(found)} single samples jump"
+    text = f"{count} by {np.max(size):.4g} and back: left out"
+    return [Problem("outlier", recording.name, signal.column, float(recording.time[found[0]]), text, False)]
 
 
 def _constant(case: Case) -> list[Problem]:

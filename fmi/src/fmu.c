@@ -69,7 +69,7 @@ static bool allocate(fmu *f) {
   for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
     *parts[i].place = (mdl_lanes *)take(&next, parts[i].n);
   for (int r = 0; r < d->n_rel; r++)
-    if (!d->relations[r].is_time) f->indicator[f->n_indicators++] = r;
+    if (!(d->relations[r].kind & MDL_OF_TIME)) f->indicator[f->n_indicators++] = r;
   return true;
 }
 

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 20
+#define MDL_ABI_VERSION 21
 
 enum { MDL_FOLLOWS = 1, MDL_ARRIVAL = 2 }; /* bits of events_follow */
 
@@ -115,9 +115,13 @@ typedef struct {
       *values; /* [n_values] rows of the variables that its condition compares, to be shown where it is violated */
 } mdl_assert;
 
+/* A relation of time, parameters and discretes only is switched by a time event, not by a root. A follower compares what
+ * event() sets, without deciding about it: what event() does reads it as it is then. */
+enum { MDL_OF_TIME = 1, MDL_FOLLOWER = 2 };
+
 typedef struct {
   mdl_equation source;
-  int is_time; /* 1: depends on time, parameters and discretes only; switched by a time event, not a root */
+  int kind; /* bits: MDL_OF_TIME, MDL_FOLLOWER */
 } mdl_relation;
 
 /* What an equation gives, in the order in which it is computed: a dependent parameter, a derivative, an algebraic. */

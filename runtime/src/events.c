@@ -20,19 +20,36 @@ enum {
 };
 
 /* A relation keeps its value while its guard is within the hysteresis: what is there may be noise, and a relation that
- * has just been located at its crossing must not fall back. Exactly zero is no noise, and not greater than zero.
- * `singly`: only the first of those that disagree, by however little: what is within the hysteresis may be what holds
+ * has just been located at its crossing must not fall back. Exactly zero is no noise, and not greater than zero. */
+static bool update_relation(rt_session *s, int r, double hysteresis) {
+  unsigned char *rel = &s->data.rel[r], now = *rel;
+  double g = s->g[r];
+  if (g > hysteresis) now = 1;
+  if (g < -hysteresis || (g == 0 && !s->flip[r])) now = 0;
+  bool changed = now != *rel;
+  *rel = now;
+  return changed;
+}
+
+/* `singly`: only the first of those that disagree, by however little: what is within the hysteresis may be what holds
  * the others up. Whether any relation changed. */
 static bool update_relations(rt_session *s, bool singly) {
   bool changed = false;
-  for (int r = 0; r < s->d->n_rel && !(singly && changed); r++) {
-    if (s->d->relations[r].is_time) continue;
-    unsigned char *rel = &s->data.rel[r], now = *rel;
-    double g = s->g[r], eps = singly ? 0 : rt_hysteresis(s, r);
-    if (g > eps) now = 1;
-    if (g < -eps || (g == 0 && !s->flip[r])) now = 0;
-    changed |= now != *rel;
-    *rel = now;
+  for (int r = 0; r < s->d->n_rel && !(singly && changed); r++)
+    if (!(s->d->relations[r].kind & MDL_OF_TIME)) changed |= update_relation(s, r, singly ? 0 : rt_hysteresis(s, r));
+  return changed;
+}
+
+/* Relations that compare what an event sets, without deciding about it, as they are with what is set. */
+static bool update_followers(rt_session *s) {
+  bool changed = false;
+  memcpy(s->rel_trial, s->data.rel, (size_t)s->d->n_rel);
+  (void)s->d->time_relations(&s->data, s->t);
+  for (int r = 0; r < s->d->n_rel; r++) {
+    int kind = s->d->relations[r].kind;
+    if (kind == MDL_OF_TIME) s->data.rel[r] = s->rel_trial[r];
+    if (kind == MDL_FOLLOWER) update_relation(s, r, rt_hysteresis(s, r));
+    changed |= s->data.rel[r] != s->rel_trial[r];
   }
   return changed;
 }
@@ -68,13 +85,14 @@ static bool alike(const double *a, const double *b, int n) {
   return true;
 }
 
-/* What events read may follow, through equations, what they set: sweeps with relations as they are, until the equations
- * hold with what is set. 0 they do, -1 failed, CIRCLE they do not come to agree. */
+/* What events read may follow, through equations and relations, what they set: sweeps with all other relations as they
+ * are, until the equations hold with what is set. 0 they do, -1 failed, CIRCLE they do not come to agree. */
 static int agree(rt_session *s) {
   mdl_data *m = &s->data;
   if (!(s->d->events_follow & MDL_ARRIVAL)) memcpy(s->v_agreed, m->v, (size_t)s->d->n_v * sizeof *m->v);
   for (int k = 0; k < MAX_ROUNDS; k++) {
     if (rt_evaluate_into(s, s->v_agreed)) return -1;
+    if (update_followers(s)) continue; /* equations may follow them */
     memcpy(s->rel_swept, m->rel, (size_t)s->d->n_rel);
     memcpy(s->d_swept, m->d, (size_t)s->d->n_d * sizeof *m->d);
     if (sweep(s, s->v_agreed) || rt_jump_sweep(s, s->v_agreed, false)) return -1;
@@ -88,7 +106,7 @@ static int agree(rt_session *s) {
  */
 static void start_again(rt_session *s) {
   for (int r = 0; r < s->d->n_rel; r++)
-    if (s->data.rel[r] != s->rel_swept[r] && !s->d->relations[r].is_time) s->data.rel[r] = 0;
+    if (s->data.rel[r] != s->rel_swept[r] && !(s->d->relations[r].kind & MDL_OF_TIME)) s->data.rel[r] = 0;
 }
 
 /* One pass: point, relations, discrete equations, by up to so many sweeps with the values before the event (pre) as

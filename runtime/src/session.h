@@ -201,7 +201,7 @@ static inline double rt_smallest_step(const rt_session *s) {
 
 /* A relation that is switched by the root of its guard. */
 static inline bool rt_is_state_relation(const rt_session *s, int r) {
-  return !s->d->relations[r].is_time;
+  return !(s->d->relations[r].kind & MDL_OF_TIME);
 }
 
 /* In the unit of the guard: far above the rounding of what it compares, far below any play of it. As a tolerance does,

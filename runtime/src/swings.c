@@ -66,7 +66,7 @@ bool rt_is_shaped(const rt_session *s, int r) {
 
 bool rt_all_affine(const mdl_descriptor *d) {
   for (int r = 0; d->affine_guards && r < d->n_rel; r++)
-    if (!d->affine_guards[r] && !d->relations[r].is_time) return false;
+    if (!d->affine_guards[r] && !(d->relations[r].kind & MDL_OF_TIME)) return false;
   return d->affine_guards != NULL;
 }
 

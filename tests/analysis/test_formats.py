@@ -293,5 +293,5 @@ def test_a_mat_table_with_more_columns_than_names_is_refused(tmp_path):
 
     names = np.array(["a", "b"], object)
     savemat(tmp_path / "table.mat", {"time": np.arange(5.0), "names": names, "data": np.zeros((5, 3))})
-    with pytest.raises(RecordingError, match="3 names and 3 units for 4 columns"):
+    with pytest.raises(RecordingError, match="2 names, 5 times and data of 5 by 3 do not go together"):
         read_recorded(tmp_path / "table.mat")

@@ -208,6 +208,6 @@ def test_a_file_whose_parts_do_not_fit_is_refused_in_a_sentence(tmp_path: Path) 
     """As one of our own layout that was damaged, or made by hand: NumPy's error was a fault of ours."""
     from scipy.io import savemat
 
-    savemat(tmp_path / "r.mat", {"time": TIME, "names": ["a", "b"], "data": np.zeros((len(TIME) + 2, 2))})
+    savemat(tmp_path / "r.mat", {"time": TIME, "names": ["a", "b"], "data": np.array(["x", "y"])})
     with pytest.raises(RecordingError, match=r"r.mat: damaged, or laid out as no recording is \(ValueError"):
         read_recorded(tmp_path / "r.mat")

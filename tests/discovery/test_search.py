@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from lacuna.codegen.library.classes import Library
+from lacuna.discovery import steps
 from lacuna.discovery.case.cases import Case, load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.catalogue import read as read_catalogue
@@ -263,6 +264,13 @@ def test_a_search_that_runs_out_of_time_leaves_what_it_has_found(
     stopped = explain(case, limit=0.0)
     assert (stopped.verdict, stopped.findings) == ("undetermined", [])
     assert "stopped after 0 s" in stopped.reason
+
+    def none_for_places(*_: object) -> None:
+        raise TimeUp("the search was stopped among the places")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(steps, "begun_open", none_for_places)
+        assert explain(case).reason == "the search was stopped among the places"
 
     def until_second_round(text: str) -> None:
         if ", round 2" in text:

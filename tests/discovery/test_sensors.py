@@ -180,8 +180,6 @@ validate = ["r3.csv"]
     ("shown", "effect", "slope", "unit"),
     [
         ("out*(1 + 0.002*(T - 293))", "SensorSpanOverTemperature", 0.002, "K"),
-        ("out*(1 + 0.002*(T - 293))", "SensorSpanOverTemperature", 0.002, "degC"),
-        ("out + 4e-8*(T - 293)", "SensorZeroOverTemperature", 4e-8, "K"),
         ("out + 4e-8*(T - 293)", "SensorZeroOverTemperature", 4e-8, "degC"),
     ],
 )

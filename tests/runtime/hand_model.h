@@ -89,7 +89,7 @@ template <class M> struct Generated {
     static const std::vector<int> z_index = M::z_index();
     static const char *const messages[] = {"arrived"};
     static std::vector<mdl_relation> relations(M::n_rel, mdl_relation{{"x > 0", "hand.mo", 6, ""}, 0});
-    if constexpr (M::time_relation >= 0) relations[M::time_relation].is_time = 1;
+    if constexpr (M::time_relation >= 0) relations[M::time_relation].kind = MDL_OF_TIME;
     static std::vector<int> residual_equation(n), colptr(n + 1), rowidx(n * n);
     for (int i = 0; i < n; i++)
       residual_equation[i] = i;

@@ -105,7 +105,9 @@ class Tables:
         return [[rows[name] for name in names if name in rows] for names in shown_values(self._p)]
 
     def relations(self) -> list[str]:
-        return [f"{{{self._source(r.source, r.text)}, {int(r.slope is not None)}}}" for r in self._p.relations]
+        follows = self._p.followers
+        kinds = [int(r.slope is not None) + 2 * (k in follows) for k, r in enumerate(self._p.relations)]
+        return [f"{{{self._source(r.source, r.text)}, {n}}}" for r, n in zip(self._p.relations, kinds, strict=True)]
 
     def affine_guards(self) -> list[str]:
         moving = self._p.guards.moving

@@ -12,6 +12,7 @@ from math import prod
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.inheritance import Element, Inheritance, own_modifier
 from lacuna.codegen.flatten.classes.leaf import Leaf
+from lacuna.codegen.flatten.classes.outer_classes import with_inner_classes
 from lacuna.codegen.flatten.classes.prefixes import (
     check_block,
     check_component,
@@ -80,7 +81,7 @@ class Instance:
         modifier: Modifier | None,
         declaration: ast.Component | None = None,
     ) -> None:
-        cls = seen(cls, modifier, context)
+        cls = with_inner_classes(seen(cls, modifier, context), parent, context)
         self.context, self.cls, self.name, self.parent = context, cls, name, parent
         self.declaration = declaration
         self.span = declaration.span if declaration else cls.span

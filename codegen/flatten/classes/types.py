@@ -9,7 +9,7 @@ from lacuna.codegen.flatten.classes.restrictions import check_class
 from lacuna.codegen.flatten.expressions.evaluate import evaluate_dimensions
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier, for_each, from_tree, merge
-from lacuna.codegen.flatten.names.scope import PRIMITIVES, Scope, base_class, find_class, meant_class
+from lacuna.codegen.flatten.names.scope import PRIMITIVES, Scope, base_class, find_class
 from lacuna.codegen.flatten.names.unknown import unknown_class
 from lacuna.codegen.flatten.names.views import constraints_of
 from lacuna.codegen.syntax import ast
@@ -50,7 +50,7 @@ def resolve_type(reference: ast.Ref, scope: Scope, depth: int = 0) -> Type:
     cls = find_class(library, scope.cls, reference, of_base=depth > 0)
     if cls is None:
         raise unknown_class(library, scope.cls, reference, "type or class")
-    return type_of(meant_class(cls, reference.span, scope), scope.context, depth)
+    return type_of(cls, scope.context, depth)
 
 
 def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:

@@ -35,11 +35,15 @@ def check_components(leaves: Iterable[Leaf], buses: list[Instance], body: Collec
         if not leaf.is_structural and leaf.primitive not in ("String", EXTERNAL):
             count.add(leaf)
     open_ended = {id(_owner(bus)) for bus in buses} | {id(_owner(bus).parent) for bus in buses}
+    refused: dict[tuple[object, int], list[Instance]] = {}  # by class and by what is too many or too few
     for instance in count.instances.values():
-        if instance.parent is None or id(instance) in open_ended or _uses_outer(instance):
-            continue
+        if instance.parent is not None and id(instance) not in open_ended and not _uses_outer(instance):
+            missing = count.unknowns[instance.name] - count.equations[instance.name]
+            if not 0 <= missing <= count.defaults[instance.name]:
+                refused.setdefault((instance.cls, missing), []).append(instance)
+    for instances in refused.values():
         with context.attempt():
-            _require_equal(instance, count)
+            _refuse(instances, count)
 
 
 def _owner(instance: Instance) -> Instance:
@@ -108,14 +112,16 @@ class _Count:
         self.unknowns[owner.name] += size - connected
 
 
-def _require_equal(instance: Instance, count: _Count) -> None:
+def _refuse(instances: list[Instance], count: _Count) -> None:
+    """What is wrong with components of one class, said once."""
+    instance = instances[0]
     equations, unknowns = count.equations[instance.name], count.unknowns[instance.name]
-    if not 0 <= unknowns - equations <= count.defaults[instance.name]:
-        cls = instance.cls
-        message = f"{cls.name} is not balanced: {equations} equations for {unknowns} unknowns of its own"
-        hint = "each class has as many equations as it declares unknowns, one for each pair of a potential and a flow"
-        if unknowns > equations:
-            hint += "; what the model around says of it is declared as an input there: input Real x"
-        error = Diagnostic("R078", message, (cls.origin or cls).span, hint)
-        error.notes.append((instance.span, f"as {instance.name} is declared here"))
-        raise error
+    cls = instance.cls
+    message = f"{cls.name} is not balanced: {equations} equations for {unknowns} unknowns of its own"
+    hint = "each class has as many equations as it declares unknowns, one for each pair of a potential and a flow"
+    if unknowns > equations:
+        hint += "; what the model around says of it is declared as an input there: input Real x"
+    error = Diagnostic("R078", message, (cls.origin or cls).span, hint)
+    more = f" (and so are {len(instances) - 1} more)" if len(instances) > 1 else ""
+    error.notes.append((instance.span, f"as {instance.name} is declared here{more}"))
+    raise error

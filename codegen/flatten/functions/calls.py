@@ -21,7 +21,6 @@ from lacuna.codegen.flatten.names.scope import (
     base_class,
     find_class,
     find_first,
-    meant_class,
     own_or_inherited,
     refuse_protected,
 )
@@ -94,7 +93,6 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
     cls, holder = find_class(scope.context.library, scope.cls, e.function), scope.instance
     if cls is None:
         cls, holder = _of_component(e.function, scope)
-    cls = meant_class(cls, e.function.span, scope) if cls is not None else None
     if cls is not None and cls.derivative_of is not None:
         return [_partial_derivative(cls, e, scope)]
     if cls is not None and cls.kind == "function":

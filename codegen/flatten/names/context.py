@@ -80,7 +80,7 @@ class Context:
             if all(str(error) != str(known) for known in self.errors):
                 self.errors.append(error)
             if len(self.errors) >= MAX_ERRORS or self.elements > MAX_ELEMENTS:
-                self.finish()
+                self.finish(whole=False)
 
     def spend(self, count: int, span: Span) -> None:
         """Count array elements and passes of loops. Raises F037 for a model out of all proportion."""
@@ -89,9 +89,10 @@ class Context:
             hint = "are the sizes and ranges as meant?"
             raise Diagnostic("F037", f"more than {MAX_ELEMENTS} array elements and loop passes", span, hint)
 
-    def finish(self) -> None:
-        """Raise the first finding, which carries the others, if there was any."""
+    def finish(self, whole: bool = True) -> None:
+        """Raise the first finding, which carries the others, if there was any; `whole`: there are no more of them."""
         if self.errors:
             first = self.errors[0]
             first.others = self.errors[1:]
+            first.cut = not whole
             raise first

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.names.component import Component
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.values import Value
@@ -237,25 +237,6 @@ def find_class(library: Library, cls: ast.Class, ref: ast.Ref, of_base: bool = F
             return None
         found = class_inside(library, found, name, ref)
     return found
-
-
-def meant_class(cls: ast.Class, span: Span, scope: Scope) -> ast.Class:
-    """`cls` itself; of one that is declared `outer`, the inner class of that name around `scope` (5.4).
-
-    Raises R013 where there is none. Where no component is known (in functions) the declared class stands.
-    """
-    if not cls.outer or scope.instance is None:
-        return cls
-    if cls.alias is not None and cls.alias.modification.arguments and not cls.inner:
-        raise Diagnostic("R076", f"the outer class {cls.name} is modified (5.4)", cls.span, "modify the inner one")
-    above: Component | None = scope.instance
-    while above is not None:
-        found = own_or_inherited(scope.context.library, above.cls, cls.name)
-        if found is not None and found.inner:
-            return found
-        above = above.parent
-    hint = f"declare in a class around it: inner {cls.kind} {cls.name}"
-    raise Diagnostic("R013", f"no 'inner' matches the 'outer' class {cls.name}", span, hint)
 
 
 def class_inside(library: Library, cls: ast.Class, name: str, ref: ast.Ref) -> ast.Class | None:

@@ -40,7 +40,11 @@ def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> 
     hint = did_you_mean(missing, known) or held or _elsewhere(library, ref)
     if current is None and missing == ref.names[0] in visible_classes(library, cls):
         imported = _imported_as(cls, missing)
-        hint = f"{missing} is imported as {imported}, which there is not" if imported else f"an encapsulated class around it sees only what it imports: import ...{missing};"
+        hint = (
+            f"{missing} is imported as {imported}, which there is not"
+            if imported
+            else f"an encapsulated class around it sees only what it imports: import ...{missing};"
+        )
     return Diagnostic("R001", f"there is no {what} {ref}", ref.span, hint)
 
 

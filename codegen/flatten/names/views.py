@@ -114,6 +114,8 @@ def constrain(library: Library, new: ast.Class, old: ast.Class, by_element: bool
     """
     if new.alias is not None and new.alias.target is not None:
         return new
+    if old.outer and new.inner and not by_element:
+        return new  # what the outer class means
     if (old.origin or old) is (new.origin or new):
         return old  # put there by the base class, which is seen with the same redeclarations
     if not old.replaceable or old.final:

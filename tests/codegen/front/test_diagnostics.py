@@ -107,3 +107,23 @@ end M;"""
         ("W013", 6, 67, "did you mean StopTime?"),
         ("W013", 6, 80, "it has StartTime, StopTime, Tolerance, Interval"),
     ]
+
+
+def test_where_more_may_be_wrong_than_is_told_it_is_said(tmp_path: Path) -> None:
+    path = tmp_path / "Many.mo"
+    path.write_text(f"model Many {' '.join(f'Real y{k} = absent{k};' for k in range(12))} end Many;", encoding="utf-8")
+    with pytest.raises(Diagnostic) as refused:
+        flatten(Library([]), str(path))
+    assert len(refused.value.others) == 9
+    assert str(refused.value).endswith("these are the first 10; there may be more")
+
+
+def test_components_of_one_class_that_lack_an_equation_are_told_once(tmp_path: Path) -> None:
+    path = tmp_path / "Row.mo"
+    path.write_text(
+        "model Row model B Real a, b; equation a = time; end B; B b[7]; B other; end Row;", encoding="utf-8"
+    )
+    with pytest.raises(Diagnostic) as refused:
+        flatten(Library([]), str(path))
+    assert (refused.value.code, refused.value.others) == ("R078", [])
+    assert refused.value.notes[0][1] == "as b[1] is declared here (and so are 7 more)"

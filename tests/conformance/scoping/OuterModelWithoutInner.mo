@@ -1,5 +1,5 @@
 // section: 5.4
-// refuse: R013 6
+// refuse: R013 5
 model OuterModelWithoutInner
   model B
     outer model F = G;

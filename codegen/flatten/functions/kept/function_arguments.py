@@ -66,4 +66,6 @@ def _bound_to(name: str, function: FunctionValue, new: Callable[[str, Value], Va
 
 def _decides_its_course(value: Value) -> bool:
     """Texts, and numbers of no continuous kind that are known: sizes and branches may follow them."""
-    return all(isinstance(s, str) or (isinstance(s, Expr) and s.op == "const" and s.type != REAL) for s in scalars(value))
+    return all(
+        isinstance(s, str) or (isinstance(s, Expr) and s.op == "const" and s.type != REAL) for s in scalars(value)
+    )
