@@ -78,7 +78,7 @@ def flatten(
     stream_variables(model, context)
     derivative_variables(model, context)
     context.finish()
-    _check_connections(leaves, buses, body, context)
+    _check_connections(leaves, buses, body, context, "warning" if units == "warn" else "error")
     model.whens, model.algorithms, model.initial_equations = body.whens, body.algorithms, initial.equations
     model.asserts = body.asserts + initial.asserts + context.table(Required)
     model.functions, model.derivatives = context.functions, context.derivatives
@@ -97,9 +97,11 @@ def flatten(
     return model
 
 
-def _check_connections(leaves: list[Leaf], buses: list[Instance], body: Collected, context: Context) -> None:
-    """What holds of components once everything is connected."""
-    check_components(leaves, buses, body, context)
+def _check_connections(
+    leaves: list[Leaf], buses: list[Instance], body: Collected, context: Context, severity: str
+) -> None:
+    """What holds of components once everything is connected; what is not balanced is of that severity."""
+    check_components(leaves, buses, body, context, severity)
     check_annotations(leaves, context)
 
 

@@ -16,6 +16,8 @@ from lacuna.codegen.library.search_path import outermost, search_path
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.references import references
 
+UNITS = "warn"  # what the numbers of a run do not need is said, and hinders nothing: units, the balance of a component
+
 
 @dataclass(frozen=True)
 class CaseModel:

@@ -17,7 +17,7 @@ from lacuna.analysis.recording.formats import read_recorded
 from lacuna.codegen.flatten.model import flatten
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.case_keys import KeyProblem, check, with_dots
-from lacuna.discovery.case.case_model import CaseModel, case_model, written_values
+from lacuna.discovery.case.case_model import UNITS, CaseModel, case_model, written_values
 from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.case.signals import Signal, of_variable, signal_of
@@ -236,7 +236,7 @@ def _limits(path: Path, tables: dict, signals: dict[str, Signal]) -> dict[str, L
 def _as_modelled(case: Case) -> dict[str, Signal]:
     """The signals in the units, and of the types, of the variables that they record. Raises CaseError for an output
     of a Boolean or an Integer: its error is no number with a spread."""
-    variables = flatten(case.library(), case.base, units="warn").variables
+    variables = flatten(case.library(), case.base, units=UNITS).variables
     known = {c: variables[s.variable] for c, s in case.signals.items() if s.variable in variables}
     for column, variable in known.items():
         if variable.type != "Real" and case.signals[column].role == "output":

@@ -33,10 +33,9 @@ class Problem:
     fatal: bool
 
     def __str__(self) -> str:
-        where = f"{self.recording}, column `{self.column}`" + (
-            f", t = {self.time:.6g} s" if self.time is not None else ""
-        )
-        return f"{where}: {self.text}"
+        column = f", column `{self.column}`" if self.column else ""
+        time = f", t = {self.time:.6g} s" if self.time is not None else ""
+        return f"{self.recording}{column}{time}: {self.text}"
 
     def as_dict(self) -> dict:
         return asdict(self)

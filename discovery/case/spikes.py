@@ -1,5 +1,5 @@
-"""Single samples of an output that leave and return at once, far outside the signal's own steps: errors of a logger, not
-of a machine. They are left out, as samples that are missing, and the report says so."""
+"""Single samples of an output that leave and return at once, far outside the signal's own steps: errors of a logger,
+not of a machine. They are left out, as samples that are missing, and the report says so."""
 
 from __future__ import annotations
 

@@ -14,6 +14,7 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.structure.sorting.tearing import Assignment
 from lacuna.codegen.symbolic.expr import var
+from lacuna.discovery.case.case_model import UNITS
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import Structure, read
@@ -47,7 +48,7 @@ def _chosen(structure: Structure, named: Iterable[str], search_path: Sequence[st
     while True:
         try:
             source = str(write_source(Amendment(replace(structure, states=wanted))))
-            believed, _ = translate(source, search_path=search_path)
+            believed, _ = translate(source, search_path=search_path, units=UNITS)
         except Diagnostic:
             if not wanted:
                 raise
@@ -65,7 +66,7 @@ def believed_aliases(amendment: Amendment, search_path: Sequence[str] | None) ->
     """(variable, sign) that each name is another one for in the model as believed: what an amended model adds to an
     equation such as T = Th may make two of them. So is a speed that is the rate of an angle which a component measures
     the other way: the state is then that component's."""
-    believed, _ = translate(str(write_source(Amendment(amendment.structure))), search_path=search_path)
+    believed, _ = translate(str(write_source(Amendment(amendment.structure))), search_path=search_path, units=UNITS)
     return _aliases(believed)
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from lacuna.codegen.cache import CompilerError
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
+from lacuna.discovery.case.case_model import UNITS
 from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.problem import CaseError
@@ -42,7 +43,7 @@ class Machine:
         self.step_limits = step_limits or {}
         self.steps: dict[str, int] = {}
         self.path = source or write_source(amendment)
-        self.compiled = compile_model(str(self.path), search_path=case.search_path, quick=True)
+        self.compiled = compile_model(str(self.path), search_path=case.search_path, quick=True, units=UNITS)
         self.model = Model(self.compiled.path)
         self.columns = {s.column: amendment.output(s.variable) for s in case.outputs}
         self._check_signals()

@@ -21,8 +21,11 @@ from lacuna.codegen.symbolic.rewrite import assigned
 _PARTS = ("record", "connector", "type")  # classes whose variables count as those of the model around
 
 
-def check_components(leaves: Iterable[Leaf], buses: list[Instance], body: Collected, context: Context) -> None:
-    """Raises R078 for the component that is not balanced. An input of a component may be given by an equation of the
+def check_components(
+    leaves: Iterable[Leaf], buses: list[Instance], body: Collected, context: Context, severity: str = "error"
+) -> None:
+    """Notes R078, of that severity, for classes of components that are not balanced: whether the whole model is, is
+    another question, which its structure answers. An input of a component may be given by an equation of the
     model around it, as people write it, though 4.8 wants a binding: it is an unknown of that model.
 
     Not judged are models with expandable or overdetermined connectors and those that use outer components: what holds
@@ -42,8 +45,11 @@ def check_components(leaves: Iterable[Leaf], buses: list[Instance], body: Collec
             if not 0 <= missing <= count.defaults[instance.name]:
                 refused.setdefault((instance.cls, missing), []).append(instance)
     for instances in refused.values():
+        finding = _unbalanced(instances, count, severity)
         with context.attempt():
-            _refuse(instances, count)
+            if severity == "error":
+                raise finding
+            context.warnings.append(finding)
 
 
 def _owner(instance: Instance) -> Instance:
@@ -112,7 +118,7 @@ class _Count:
         self.unknowns[owner.name] += size - connected
 
 
-def _refuse(instances: list[Instance], count: _Count) -> None:
+def _unbalanced(instances: list[Instance], count: _Count, severity: str) -> Diagnostic:
     """What is wrong with components of one class, said once."""
     instance = instances[0]
     equations, unknowns = count.equations[instance.name], count.unknowns[instance.name]
@@ -121,7 +127,7 @@ def _refuse(instances: list[Instance], count: _Count) -> None:
     hint = "each class has as many equations as it declares unknowns, one for each pair of a potential and a flow"
     if unknowns > equations:
         hint += "; what the model around says of it is declared as an input there: input Real x"
-    error = Diagnostic("R078", message, (cls.origin or cls).span, hint)
+    error = Diagnostic("R078", message, (cls.origin or cls).span, hint, severity=severity)
     more = f" (and so are {len(instances) - 1} more)" if len(instances) > 1 else ""
     error.notes.append((instance.span, f"as {instance.name} is declared here{more}"))
-    raise error
+    return error

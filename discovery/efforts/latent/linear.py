@@ -19,6 +19,7 @@ from lacuna.codegen import flat
 from lacuna.codegen.compile import translate
 from lacuna.codegen.symbolic.differentiate import Differentiator, partial
 from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, var
+from lacuna.discovery.case.case_model import UNITS
 from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.flows import blocks, flows
@@ -36,7 +37,7 @@ class Linear:
 
     def __init__(self, machine: Machine, inputs: list[str], parameters: list[str]) -> None:
         self.machine, self.inputs, self.parameters = machine, inputs, parameters
-        self.prepared, _ = translate(str(machine.path), search_path=machine.case.search_path)
+        self.prepared, _ = translate(str(machine.path), search_path=machine.case.search_path, units=UNITS)
         system = self.prepared.system
         self.states, self.unknowns = system.states, system.unknowns
         residuals = [row.residual for row in system.rows]

@@ -23,6 +23,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.codegen.symbolic.expr import var
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.units.inference import UnitInference, of_variable
+from lacuna.discovery.case.case_model import UNITS
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.catalogue.amend import Amendment
@@ -193,18 +194,22 @@ def unit_of(site: Site, prepared: Prepared) -> str:
         return prepared.declared.variables[site.label].unit
     if site.kind == "signal":
         return prepared.declared.variables[site.into].unit
-    site = site.parts[0] if site.parts else site
-    left = _left(site.local)
-    declared = prepared.declared
+    found = _balanced_in(site.parts[0] if site.parts else site, prepared)
+    return str(found) if found is not None and found.factor == 1.0 else ""
+
+
+def _balanced_in(site: Site, prepared: Prepared) -> Unit | None:
+    """The unit of both sides of an equation, with its scale; None where it is not known."""
+    left, declared = _left(site.local), prepared.declared
     equation = next(
         (e for e in declared.equations if e.origin == site.instance and _left(e.text) == left),
         None,
     )
     if equation is None:
-        return ""
+        return None
     inference = UnitInference(lambda e: _declared_unit(declared.variables, str(e.value)), lambda name: "")
     found = inference.of(equation.lhs)
-    return str(found) if isinstance(found, Unit) and found.factor == 1.0 else ""
+    return found if isinstance(found, Unit) else None
 
 
 def _left(text: str) -> str:
@@ -244,8 +249,8 @@ def opened(
     """The amended model, simulated as `base` is, with an input at every site where one can act."""
     found = read(library, amendment.structure.model)
     closed = list(found.closed)
-    believed, _ = translate(str(write_source(amendment)), search_path=case.search_path)
-    between = exchanges(found.places, lambda site: unit_of(site, believed))
+    believed, _ = translate(str(write_source(amendment)), search_path=case.search_path, units=UNITS)
+    between = exchanges(found.places, lambda site: str(_balanced_in(site, believed) or ""))
     vary = varying([*found.places, *found.inside], _read(believed, _scalars(believed)))
     told = [s.variable for s in case.inputs]
     acting = varying(found.places, _read(believed, told), "input")
@@ -281,7 +286,7 @@ def _read(believed: Prepared, names: Iterable[str]) -> dict[str, int]:
 def _openable(case: Case, amendment: Amendment, sites: list[Site], closed: list[tuple[str, str]]) -> list[Site]:
     """Sites where an input can act, tried together and, where that is no model, in halves; the others are `closed`."""
     try:
-        translate(str(write_source(_with_probes(amendment, sites))), search_path=case.search_path)
+        translate(str(write_source(_with_probes(amendment, sites))), search_path=case.search_path, units=UNITS)
     except (Diagnostic, CompilerError) as reason:
         if len(sites) == 1:
             rigid = isinstance(reason, Diagnostic) and reason.code == "S004"
