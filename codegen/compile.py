@@ -12,17 +12,18 @@ import time
 from typing import TypeVar
 
 from lacuna.codegen import cache, flat
-from lacuna.codegen.dae import events, hybrid
-from lacuna.codegen.dae.discrete_starts import discrete_starts
+from lacuna.codegen.dae import hybrid
+from lacuna.codegen.dae.discrete import events
+from lacuna.codegen.dae.discrete.discrete_starts import discrete_starts
+from lacuna.codegen.dae.discrete.followers import followers
 from lacuna.codegen.dae.divisions import divisions
-from lacuna.codegen.dae.followers import followers
 from lacuna.codegen.dae.free_parameters import free_parameters
 from lacuna.codegen.dae.guards import guard_shapes
 from lacuna.codegen.dae.initial import initial_system
 from lacuna.codegen.dae.operators import delays, homotopy, transports
 from lacuna.codegen.dae.operators.held_inputs import hold_inputs
 from lacuna.codegen.dae.prepared import Prepared
-from lacuna.codegen.dae.relations import Relation
+from lacuna.codegen.dae.relations import Relation, rename
 from lacuna.codegen.dae.storage import Storage
 from lacuna.codegen.emit.source import generate
 from lacuna.codegen.errors import Diagnostic
@@ -95,7 +96,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     system = report.run("index reduction", reduce_index, model, continuous, len(frozen.relations))
     insist(declared, aliases, system)
     system = report.run("aliases", precompute, system)
-    relations = report.run("hybrid", hybrid.rename, frozen.relations, system.renamed)
+    relations = report.run("hybrid", rename, frozen.relations, system.renamed)
     relations += [Relation(s.left, s.right, s.source, text=s.text) for s in system.switches]
     steps = report.run("hybrid", events.order, system.model, discrete, system.renamed, system.algebraics)
     events.refuse_reinit(steps, system.states)

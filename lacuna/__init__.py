@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from lacuna.campaigns import Sweep, sweep
+    from lacuna.checking import Finding, check
     from lacuna.comparisons import Agreement, Comparison, compare, compare_with_file
     from lacuna.degradation import degradation_laws
     from lacuna.diagnoses import Case, Explanation, Verdict, explain, open_case
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
     from lacuna.history import export_history, refresh, remember
     from lacuna.inputs import Input, recorded
     from lacuna.listings import Entry, list_effects, list_models, list_solvers
-    from lacuna.models import Finding, Model, check, dump, load
+    from lacuna.models import Model, dump, load
     from lacuna.prognosis import Prognosis, forecast
     from lacuna.progress import Progress
     from lacuna.results import IncompleteRun, Result
@@ -68,7 +69,8 @@ _HOMES = {
     "history": ("export_history", "refresh", "remember"),
     "inputs": ("Input", "recorded"),
     "listings": ("Entry", "list_effects", "list_models", "list_solvers"),
-    "models": ("Finding", "Model", "check", "dump", "load"),
+    "checking": ("Finding", "check"),
+    "models": ("Model", "dump", "load"),
     "progress": ("Progress",),
     "degradation": ("degradation_laws",),
     "prognosis": ("Prognosis", "forecast"),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 import time
@@ -19,7 +18,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.codegen.structure.report import dump as dump_structure
 from lacuna.errors import UserError
 from lacuna.inputs import Input, as_inputs, as_numbers, assumed, uncovered
-from lacuna.notebook import page, table, verbatim
+from lacuna.notebook import page, table
 from lacuna.progress import Progress, silent, watching
 from lacuna.results import IncompleteRun, Result
 import lacuna.runtime as runtime
@@ -29,37 +28,6 @@ Solver = Literal["ida", "dopri5", "rodas4", "rk4", "euler"]
 Dump = Literal["flat", "structure", "c"]
 POINTS = 500  # rows of a run whose model and caller name no interval, as Modelica tools have it
 NO_VALUE = "F023"  # the code of a parameter without a value, which the caller may give
-
-
-@dataclass(frozen=True)
-class Finding:
-    """What a check found: a flat model's size, and warnings with file, line and hint."""
-
-    name: str
-    variables: int
-    states: int
-    equations: int
-    warnings: tuple[str, ...]
-
-    def _repr_html_(self) -> str:
-        rows = [("variables", self.variables), ("continuous", self.states), ("equations", self.equations)]
-        return page(self.name, table(("", ""), rows), *map(verbatim, self.warnings))
-
-
-def check(
-    model: str | Path,
-    *,
-    class_name: str = "",
-    libraries: Iterable[str | Path] = (),
-    units: Units = "error",
-    data: Iterable[str | Path] = (),
-    allow_external: bool = False,
-) -> Finding:
-    """The front end alone: names, types, units, structure of the language. Raises Diagnostic with all findings."""
-    source = Source.of(model, class_name, libraries, units, data, allow_external)
-    flat = flatten(Library(source.path, source.access), source.name, units=units)
-    continuous = sum(v.variability == "continuous" for v in flat.variables.values())
-    return Finding(flat.name, len(flat.variables), continuous, len(flat.equations), tuple(map(str, flat.warnings)))
 
 
 def dump(

@@ -96,7 +96,12 @@ class Entry:
             raise AnalysisError("an assessment to be stored needs its actuator, and its cycles or hours")
         if self.event not in EVENTS:
             raise AnalysisError(f"event is {self.event!r}; known is 'replaced', or nothing")
+        for name in NUMBERS:  # a database may not know NumPy's
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, float(getattr(self, name)))
         numbers = [self.severity, self.low, self.high, self.cycles or 0.0, self.hours or 0.0]
+        if self.low > self.high:
+            raise AnalysisError(f"actuator {self.actuator}: low is {self.low:g}, above high, {self.high:g}")
         if not np.all(np.isfinite(numbers)) or min(numbers[3:]) < 0:
             raise AnalysisError(
                 f"actuator {self.actuator}: an assessment to be stored holds finite numbers, use not below 0"
@@ -110,13 +115,14 @@ class Store:
     """
 
     def __init__(self, url: str | Path):
-        self.url = str(url) if "://" in str(url) else f"sqlite:///{url}"
+        self.url = str(url)
         try:
-            own = {"timeout": WAIT} if self.url.startswith("sqlite") else {}
-            self._engine = sa.create_engine(self.url, connect_args=own)
-        except (SQLAlchemyError, ModuleNotFoundError) as error:
+            place = sa.make_url(self.url) if "://" in self.url else sa.URL.create("sqlite", database=self.url)
+            own = {"timeout": WAIT} if place.get_backend_name() == "sqlite" else {}
+            self._engine = sa.create_engine(place, connect_args=own)
+        except (SQLAlchemyError, ModuleNotFoundError, ValueError) as error:
             raise AnalysisError(f"{_hidden(self.url)}: not a database that can be used: {error}") from None
-        if self.url.startswith("sqlite"):
+        if own:
             sa.event.listen(self._engine, "connect", _leave_transactions_to_us)
             sa.event.listen(self._engine, "begin", lambda connection: connection.exec_driver_sql("BEGIN IMMEDIATE"))
         self._migrate()
@@ -145,7 +151,8 @@ class Store:
                 connection.execute(_version.insert().values(version=number + 1))
 
     def append(self, entries: Sequence[Entry]) -> int:
-        """Store what is not stored yet; how many that were. Many processes may write at once."""
+        """Store what is not stored yet; how many that were. Many processes may write at once. Raises AnalysisError for
+        a recording that is stored with another use or event: rows are never changed."""
         return sum(self._append_one(entry) for entry in entries)
 
     def _append_one(self, entry: Entry) -> bool:
@@ -156,8 +163,19 @@ class Store:
             with self._connection() as connection:
                 connection.execute(_assessments.insert().values(**values, checksum=_checksum(values)))
         except IntegrityError:
+            self._require_same_use(entry)
             return False
         return True
+
+    def _require_same_use(self, entry: Entry) -> None:
+        c, known = _assessments.c, ("recording", "map", "actuator", "fault")
+        query = sa.select(c.cycles, c.hours, c.event).where(*(c[n] == getattr(entry, n) for n in known))
+        with self._connection() as connection:
+            row = connection.execute(query).mappings().one()
+        for name, stored in row.items():
+            if stored != getattr(entry, name):
+                said = f"{name} {stored!r}, not {getattr(entry, name)!r}: what is stored is never changed"
+                raise AnalysisError(f"{_hidden(self.url)}: actuator {entry.actuator}: this recording has {said}")
 
     def entries(self, *, all_maps: bool = False) -> list[Entry]:
         """In order of actuator, fault and use: the latest of each recording, or with `all_maps` every one."""

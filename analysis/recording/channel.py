@@ -20,6 +20,9 @@ class RecordingError(AnalysisError):
     """A file that is no recording, or is damaged; the message says which, where and why."""
 
 
+_EXACT = 2**53
+
+
 @dataclass(frozen=True)
 class Channel:
     """`time` [n] in s, rising; `values` [n] in `unit` ("" where the file says none); NaN where a sample is missing.
@@ -159,16 +162,29 @@ def distinct(heads: Sequence[Head]) -> list[str]:
     return [head.text if names.count(head.name) > 1 else head.name for head in heads]
 
 
+def as_reals(path: Path, name: str, values: np.ndarray) -> np.ndarray:
+    """The values of a channel as Reals. Raises RecordingError for whole numbers that none of these holds exactly."""
+    values = np.asarray(values)
+    if values.dtype.kind in "iu" and np.any((values > _EXACT) | (values < -_EXACT)):
+        raise RecordingError(f"{path}: {name} holds whole numbers beyond 2^53, which a Real does not hold exactly")
+    return values.astype(float)
+
+
 def on_one_time(channels: Sequence[Channel]) -> tuple[np.ndarray, list[np.ndarray]]:
-    """All sample times, and each channel's values there; NaN where a channel has no sample at that time."""
+    """All sample times, and each channel's values there; NaN where a channel has no sample at that time. A time at
+    which one has two (a step) is there twice."""
     first = channels[0].time
     if all(c.time is first or np.array_equal(c.time, first) for c in channels):
         return first, [c.values for c in channels]
-    time = np.unique(np.concatenate([c.time for c in channels]))
+    again = [
+        np.arange(len(c.time)) - np.searchsorted(c.time, c.time) for c in channels
+    ]  # how often it was there before
+    pairs = [np.stack([c.time, n], axis=1) for c, n in zip(channels, again, strict=True)]
+    time = np.unique(np.concatenate(pairs), axis=0)[:, 0]
     columns = []
-    for channel in channels:
+    for channel, before in zip(channels, again, strict=True):
         column = np.full(len(time), np.nan)
-        column[np.searchsorted(time, channel.time)] = channel.values
+        column[np.searchsorted(time, channel.time) + before] = channel.values
         columns.append(column)
     return time, columns
 

@@ -82,7 +82,8 @@ def _are_units(rows: np.ndarray, first: int) -> bool:
 
 
 def write(recorded: Recorded, path: Path) -> None:
-    """Names in the first row, units in the second. Texts are texts, whatever they begin with; numbers keep all digits."""
+    """Names in the first row, units in the second. Texts are texts, whatever they begin with; numbers have all
+    digits."""
     from openpyxl import Workbook
     from openpyxl.cell import WriteOnlyCell
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table, left_out, on_one_time
+from lacuna.analysis.recording.channel import Recorded, RecordingError, as_reals, from_table, left_out, on_one_time
 
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 _DESCRIPTION = 116  # bytes of text at the head of version 5
@@ -73,7 +73,7 @@ def _vectors(path: Path, content: dict[str, Any]) -> Recorded:
     """Vectors beside a vector of time, in the file or in one structure; of a matrix each column, numbered."""
     flat = _without_common_head(dict(_fields(content)))
     arrays = {n: v for n, v in flat.items() if isinstance(v, np.ndarray) and v.dtype.kind in "fiub" and v.size > 1}
-    vectors = {n: v.ravel().astype(float) for n, v in arrays.items() if v.size == max(v.shape)}
+    vectors = {n: as_reals(path, n, v.ravel()) for n, v in arrays.items() if v.size == max(v.shape)}
     if not vectors:
         raise RecordingError(f"{path}: holds no vectors of numbers; it has {', '.join(content) or 'nothing'}")
     lengths = {n: len(v) for n, v in vectors.items()}
@@ -85,7 +85,7 @@ def _vectors(path: Path, content: dict[str, Any]) -> Recorded:
     for name, matrix in arrays.items():
         if name not in vectors and matrix.ndim == 2 and matrix.shape.count(rows) == 1:
             columns = matrix.T if matrix.shape[0] == rows else matrix
-            vectors |= {f"{name}[{k}]": column.astype(float) for k, column in enumerate(columns, 1)}
+            vectors |= {f"{name}[{k}]": as_reals(path, name, column) for k, column in enumerate(columns, 1)}
     taken = {name.split("[")[0] for name in vectors}
     notes = left_out([name for name in flat if name not in vectors and name not in taken])
     return from_table(path, list(vectors), [""] * len(vectors), np.array(list(vectors.values())), notes)

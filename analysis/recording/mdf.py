@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from lacuna.analysis.recording.channel import Channel, Recorded, RecordingError, distinct, left_out
+from lacuna.analysis.recording.channel import Channel, Recorded, RecordingError, as_reals, distinct, left_out
 from lacuna.analysis.recording.heads import read_head
 
 _NONE_OF_VERSION_3 = 65535
@@ -39,7 +39,7 @@ def read(path: Path) -> Recorded:
     if not signals:
         raise RecordingError(f"{path}: holds no channels of numbers")
     heads = [read_head(s.name, s.unit or "") for s in signals]
-    physical = [_physical(s) for s in signals]
+    physical = [_physical(path, s) for s in signals]
     bent = [s.name for s, values in zip(signals, physical, strict=True) if values is None]
     if bent:
         said = f"{', '.join(bent)} {'is' if len(bent) == 1 else 'are'} converted by more than a straight line"
@@ -54,9 +54,9 @@ def read(path: Path) -> Recorded:
     return Recorded(path, channels, tuple(notes))
 
 
-def _physical(signal: Any) -> np.ndarray | None:
+def _physical(path: Path, signal: Any) -> np.ndarray | None:
     """Values in the channel's unit; None where they are converted by more than a straight line."""
-    raw, conversion = np.asarray(signal.samples, float), signal.conversion
+    raw, conversion = as_reals(path, signal.name, signal.samples), signal.conversion
     if signal.invalidation_bits is not None:
         raw = np.where(np.asarray(signal.invalidation_bits, bool), np.nan, raw)
     kind = None if conversion is None else conversion.conversion_type

@@ -11,6 +11,7 @@ import numpy as np
 from lacuna.analysis.recording.channel import (
     Recorded,
     RecordingError,
+    as_reals,
     clock_name,
     from_clock,
     from_table,
@@ -44,8 +45,8 @@ def read(path: Path) -> Recorded:
             numbers = column.cast("uint8") if pyarrow.types.is_boolean(field.type) else column
             try:
                 values = numbers.cast("float64").to_numpy()
-            except pyarrow.ArrowInvalid as error:  # an integer beyond 2^53
-                raise RecordingError(f"{path}: {field.name}: {error}") from None
+            except pyarrow.ArrowInvalid:  # an integer beyond 2^53
+                values = as_reals(path, field.name, numbers.drop_null().to_numpy())
         columns.append(values)
     return from_table(path, names, units, np.array(columns), notes)
 

@@ -11,6 +11,7 @@ from lacuna.analysis.recording.channel import (
     Channel,
     Recorded,
     RecordingError,
+    as_reals,
     clock_name,
     distinct,
     from_clock,
@@ -39,7 +40,7 @@ def read(path: Path) -> Recorded:
     if all("wf_increment" in c.properties for c in found):
         names = distinct(heads)
         return Recorded(path, tuple(
-            Channel(name, head.unit or "", _waveform_time(path, c), np.asarray(c.data, float), head)
+            Channel(name, head.unit or "", _waveform_time(path, c), as_reals(path, c.name, c.data), head)
             for name, head, c in zip(names, heads, found, strict=True)
         ), tuple(notes))  # fmt: skip
     lengths = {c.name: len(c) for c in found}
@@ -56,7 +57,7 @@ def read(path: Path) -> Recorded:
             notes, units[k] = [*notes, *said], "s"
             names[k] = clock_name(c.name, names)
         else:
-            values = np.asarray(c.data, float)
+            values = as_reals(path, c.name, c.data)
         columns.append(values)
     return from_table(path, names, units, np.array(columns), notes)
 

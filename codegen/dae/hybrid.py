@@ -69,8 +69,8 @@ def analyse(model: flat.FlatModel) -> Hybrid:
     whens = [freezer.when(w) for w in model.whens]
     algorithms = [freezer.algorithm(a) for a in model.algorithms]
     freezer.generating = False
-    whens = [replace(w, branches=[(c, freezer.bodies.statements(b)) for c, b in w.branches]) for w in whens]
-    algorithms = [replace(a, statements=[freezer.body(s) for s in a.statements]) for a in algorithms]
+    whens = [_bodies(freezer.bodies, w) for w in whens]
+    algorithms = [replace(a, statements=freezer.statements(a)) for a in algorithms]
     frozen = replace(
         model,
         variables=freezer.variables,
@@ -83,9 +83,8 @@ def analyse(model: flat.FlatModel) -> Hybrid:
     return Hybrid(frozen, freezer.relations, freezer.samples)
 
 
-def rename(relations: list[Relation], rewriter: Rewriter) -> list[Relation]:
-    """The relations with other names of derivatives."""
-    return [replace(r, left=rewriter.expression(r.left), right=rewriter.expression(r.right)) for r in relations]
+def _bodies(rewriter: Rewriter, w: flat.When) -> flat.When:
+    return replace(w, branches=[(c, rewriter.statements(b)) for c, b in w.branches])
 
 
 _OF_EVENTS = ("edge", "change", "sample", "pre")  # what means the same wherever it stands
@@ -136,12 +135,14 @@ class _Freezer:
         steps = [self.when(s, a.origin) if isinstance(s, flat.When) else outside.statement(s) for s in a.statements]
         return replace(a, statements=steps)
 
-    def body(self, s: flat.Statement) -> flat.Statement:
-        if isinstance(s, flat.When):
-            return replace(s, branches=[(c, self.bodies.statements(b)) for c, b in s.branches])
-        return s
+    def statements(self, a: flat.Algorithm) -> list[flat.Statement]:
+        """Those of an algorithm: what compares its own variables in a when-clause does so in their order."""
+        rewriter = Rewriter(lambda n: self._statement_rule(n, frozenset(a.targets)))
+        return [_bodies(rewriter, s) if isinstance(s, flat.When) else s for s in a.statements]
 
-    def _statement_rule(self, n: Expr) -> Expr | None:
+    def _statement_rule(self, n: Expr, assigned: frozenset[str] = frozenset()) -> Expr | None:
+        if n.op in RELATIONS and any(leaf.op == "var" and leaf.value in assigned for leaf in leaves(n)):
+            return None
         if n.op == "pre" and self._is_algebraic(n.args[0]):
             return n  # its value on arrival, which equations may change while what they follow is found
         return self._body_rule(n)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from lacuna.codegen import flat
+from lacuna.codegen.dae.discrete.events import EventStep
 from lacuna.codegen.dae.divisions import Quotient
-from lacuna.codegen.dae.events import EventStep
 from lacuna.codegen.dae.guards import GuardShapes
 from lacuna.codegen.dae.initial import InitialSystem
 from lacuna.codegen.dae.operators.delays import Delay

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.symbolic.expr import BOOLEAN, Expr, node, relation
+from lacuna.codegen.symbolic.rewrite import Rewriter
 
 
 @dataclass
@@ -38,3 +39,8 @@ def complement(n: Expr) -> Expr:
 def within(written: Expr, left: Expr, right: Expr) -> str:
     """left > right inside the call `written`."""
     return f"{relation('>', left, right)} in {written}"
+
+
+def rename(relations: list[Relation], rewriter: Rewriter) -> list[Relation]:
+    """The relations with other names of derivatives."""
+    return [replace(r, left=rewriter.expression(r.left), right=rewriter.expression(r.right)) for r in relations]

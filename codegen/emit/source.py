@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lacuna.codegen import flat
-from lacuna.codegen.dae.events import DiscreteEquation, reads_arrival
+from lacuna.codegen.dae.discrete.events import DiscreteEquation, reads_arrival
 from lacuna.codegen.dae.operators.transports import OPERATOR
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.callbacks.asserts import assert_rows

@@ -3,13 +3,10 @@ meant, with a warning, where the library has the new name and not the old one.""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.syntax import ast
-
-if TYPE_CHECKING:
-    from lacuna.codegen.library.classes import Library
 
 # By the package that is looked in and the name that it does not have: the old full name, and the new one. From the
 # release notes of version 4.0.0 of the library.
@@ -25,7 +22,16 @@ _RENAMED = {
 OLD_NAMES = frozenset(name for _, name in _RENAMED)
 
 
-def renamed(library: Library, cls: ast.Class, name: str) -> ast.Class | None:
+class Classes(Protocol):
+    """The library, as far as this asks: classes by name, and where it notes what it did."""
+
+    root: ast.Class
+    renamed: dict[str, str]
+
+    def member(self, cls: ast.Class, name: str) -> ast.Class | None: ...
+
+
+def renamed(library: Classes, cls: ast.Class, name: str) -> ast.Class | None:
     """What `name`, which `cls` does not have, is called now; None where it never had it, or the new name is absent."""
     old, new = _RENAMED.get((cls.path, name), ("", ""))
     found: ast.Class | None = library.root if new else None
@@ -36,7 +42,7 @@ def renamed(library: Library, cls: ast.Class, name: str) -> ast.Class | None:
     return found
 
 
-def warnings_of(library: Library) -> list[Diagnostic]:
+def warnings_of(library: Classes) -> list[Diagnostic]:
     """One for each old name that was read as the new one."""
     return [
         Diagnostic(

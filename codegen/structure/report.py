@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from lacuna.codegen.dae.events import DiscreteEquation, targets
+from lacuna.codegen.dae.discrete.events import DiscreteEquation, targets
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.source import generate
 from lacuna.codegen.flat.text import dump_flat

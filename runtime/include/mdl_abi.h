@@ -115,8 +115,8 @@ typedef struct {
       *values; /* [n_values] rows of the variables that its condition compares, to be shown where it is violated */
 } mdl_assert;
 
-/* A relation of time, parameters and discretes only is switched by a time event, not by a root. A follower compares what
- * event() sets, without deciding about it: what event() does reads it as it is then. */
+/* A relation of time, parameters and discretes only is switched by a time event, not by a root. A follower compares
+ * what event() sets, without deciding about it: what event() does reads it as it is then. */
 enum { MDL_OF_TIME = 1, MDL_FOLLOWER = 2 };
 
 typedef struct {

@@ -280,7 +280,7 @@ def test_parquet_with_an_inexact_integer_or_a_name_twice_is_refused(tmp_path):
 
     path = tmp_path / "hostile.parquet"
     parquet.write_table(pyarrow.table({"time": [0, 1], "x": [2**63 - 1, 0]}), path)
-    with pytest.raises(RecordingError, match="x: Integer value 9223372036854775807"):
+    with pytest.raises(RecordingError, match="x holds whole numbers beyond"):
         read_recorded(path)
     columns = [pyarrow.array([0.0, 1.0])] * 3
     parquet.write_table(pyarrow.Table.from_arrays(columns, names=["time", "x", "x"]), path)

@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lacuna.analysis.recording.channel import RecordingError
+from lacuna.analysis.recording.channel import Channel, RecordingError, on_one_time
 from lacuna.analysis.recording.formats import read_recorded, write_recorded
+from lacuna.analysis.recording.heads import Head
 
 PACKAGES = {
     "csv": "numpy",
@@ -54,3 +55,33 @@ def test_a_mat_table_whose_time_has_another_length_is_refused(tmp_path: Path) ->
     savemat(tmp_path / "a.mat", table)
     with pytest.raises(RecordingError, match="2 names, 4 times and data of 3 by 2 do not go together"):
         read_recorded(tmp_path / "a.mat")
+
+
+def test_a_step_of_a_channel_with_a_clock_of_its_own_keeps_both_its_samples() -> None:
+    def channel(name: str, time: list[float], values: list[float]) -> Channel:
+        return Channel(name, "", np.array(time), np.array(values), Head(name, name, None, sure=False))
+
+    step, other = channel("a", [0, 0.1, 0.1, 0.2], [1, 2, 3, 4]), channel("b", [0, 0.05, 0.1], [5, 6, 7])
+    time, (a, b) = on_one_time([step, other])
+    assert time.tolist() == [0.0, 0.05, 0.1, 0.1, 0.2]
+    assert a.tolist()[2:] == [2.0, 3.0, 4.0] and np.isnan(a[1])
+    assert b.tolist()[:3] == [5.0, 6.0, 7.0] and np.isnan(b[3:]).all()
+
+
+def test_whole_numbers_that_no_real_holds_are_refused_in_every_format(tmp_path: Path) -> None:
+    savemat = pytest.importorskip("scipy.io").savemat
+    asammdf, nptdms = pytest.importorskip("asammdf"), pytest.importorskip("nptdms")
+    pyarrow = pytest.importorskip("pyarrow")
+    from pyarrow.parquet import write_table
+
+    time, large = np.arange(4.0), np.array([1, 2, 3, 2**53 + 1])
+    savemat(tmp_path / "a.mat", {"time": time, "n": large})
+    write_table(pyarrow.table({"time": time, "n": large}), tmp_path / "a.parquet")
+    with asammdf.MDF(version="4.10") as file:
+        file.append([asammdf.Signal(large, time, name="n")])
+        file.save(tmp_path / "a.mf4")
+    with nptdms.TdmsWriter(tmp_path / "a.tdms") as file:
+        file.write_segment([nptdms.ChannelObject("g", "time", time), nptdms.ChannelObject("g", "n", large)])
+    for form in ("mat", "parquet", "mf4", "tdms"):
+        with pytest.raises(RecordingError, match=rf"a.{form}: n holds whole numbers beyond 2\^53"):
+            read_recorded(tmp_path / f"a.{form}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from lacuna.codegen import flat
-from lacuna.codegen.dae.events import DiscreteEquation
+from lacuna.codegen.dae.discrete.events import DiscreteEquation
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.storage import Storage
 from lacuna.codegen.emit.functions.endless import end_of, may_not_end

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from lacuna.codegen import flat
-from lacuna.codegen.dae.events import DiscreteEquation, targets
+from lacuna.codegen.dae.discrete.events import DiscreteEquation, targets
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.relations import Relation
 from lacuna.codegen.emit.callbacks.asserts import assert_rows, of_parameters, write_assert

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from lacuna.codegen import flat
-from lacuna.codegen.dae.events import DiscreteEquation, targets
+from lacuna.codegen.dae.discrete.events import DiscreteEquation, targets
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.callbacks.discrete import Discrete
 from lacuna.codegen.emit.derivatives.lanes import Lanes, rows_of

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from lacuna.codegen import flat
-from lacuna.codegen.dae.events import DiscreteEquation
+from lacuna.codegen.dae.discrete.events import DiscreteEquation
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.symbolic.differentiate import partial
 from lacuna.codegen.symbolic.expr import REAL, Expr

@@ -201,14 +201,10 @@ def unit_of(site: Site, prepared: Prepared) -> str:
 def _balanced_in(site: Site, prepared: Prepared) -> Unit | None:
     """The unit of both sides of an equation, with its scale; None where it is not known."""
     left, declared = _left(site.local), prepared.declared
-    equation = next(
-        (e for e in declared.equations if e.origin == site.instance and _left(e.text) == left),
-        None,
-    )
-    if equation is None:
-        return None
+    alike = (e for e in declared.equations if e.origin == site.instance and _left(e.text) == left)
+    equation = next(alike, None)
     inference = UnitInference(lambda e: _declared_unit(declared.variables, str(e.value)), lambda name: "")
-    found = inference.of(equation.lhs)
+    found = inference.of(equation.lhs) if equation is not None else None
     return found if isinstance(found, Unit) else None
 
 

@@ -12,6 +12,7 @@ import socket
 import sqlite3
 import subprocess
 
+import numpy as np
 import pytest
 from sqlalchemy import create_engine, text
 
@@ -180,6 +181,29 @@ def test_what_is_no_store_is_refused(tmp_path):
             Store(url)
 
 
+@pytest.mark.parametrize("name", ["h?x=1.db", "h%41.db", "q?uri=true.db", "file:z.db?mode=memory&uri=true"])
+def test_a_path_is_the_file_of_that_name_whatever_it_holds(tmp_path, name):
+    store = Store(tmp_path / name)
+    store.append([entry(1)])
+    assert [f.name for f in tmp_path.iterdir()] == [name]
+    assert Store(tmp_path / name).entries() == [entry(1)]
+
+
+def test_numbers_of_numpy_are_numbers(url):
+    store = Store(url)
+    store.append([entry(1, severity=np.float32(0.25), high=np.float64(0.5), cycles=np.int64(7))])
+    assert [(e.severity, e.high, e.cycles) for e in store.entries()] == [(0.25, 0.5, 7.0)]
+
+
+@pytest.mark.parametrize("change", [{"cycles": 11.0}, {"hours": 3.0}, {"event": "replaced"}])
+def test_a_recording_that_is_stored_with_another_use_is_refused(url, change):
+    store = Store(url)
+    store.append([entry(1)])
+    with pytest.raises(AnalysisError, match=f"this recording has {next(iter(change))} .*never changed"):
+        store.append([entry(1, **change)])
+    assert store.entries() == [entry(1)]
+
+
 def test_a_spoilt_cell_is_named(tmp_path):
     store = Store(tmp_path / "h.db")
     store.append([entry(1)])
@@ -190,7 +214,15 @@ def test_a_spoilt_cell_is_named(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "changes", [{"actuator": ""}, {"cycles": None}, {"severity": float("nan")}, {"event": "mended"}, {"cycles": -1.0}]
+    "changes",
+    [
+        {"actuator": ""},
+        {"cycles": None},
+        {"severity": float("nan")},
+        {"event": "mended"},
+        {"cycles": -1.0},
+        {"low": 0.3},
+    ],
 )
 def test_what_is_no_assessment_is_refused(changes):
     with pytest.raises(AnalysisError):

@@ -1,5 +1,5 @@
 """Functions as arguments of functions that run at run time (Modelica 3.6, 12.4.2). A function is made anew for each
-function that it is given; what that one has bound varies, and becomes inputs of their own: `f.a` of `function f(a = x)`."""
+function that it is given; what that one has bound varies, and becomes inputs: `f.a` of `function f(a = x)`."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from lacuna.codegen import flat
-from lacuna.codegen.dae.events import sorted_body
+from lacuna.codegen.dae.discrete.events import sorted_body
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.constants import is_parametric
 from lacuna.codegen.symbolic.expr import TRUE, Expr, special, transform
