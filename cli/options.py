@@ -25,7 +25,10 @@ Libraries = Annotated[
 ]  # fmt: skip
 Units = Annotated[
     Literal["error", "warn", "all"],
-    typer.Option(help="An inconsistent equation is an error, a warning, or (all) an error in libraries, too"),
+    typer.Option(
+        help="Where units do not agree, or a component is not balanced by itself: an error, a warning, or "
+        "(all) an error of units in libraries, too"
+    ),
 ]
 Data = Annotated[
     list[Path] | None,

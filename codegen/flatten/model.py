@@ -50,9 +50,9 @@ def flatten(
 ) -> flat.FlatModel:
     """The flat model of class `name` (see `Library.find`), every check of the front end done.
 
-    `modifications` set structural parameters by their full name; `units` is "error", "warn" (findings go to
-    `FlatModel.warnings`), "all" (findings inside libraries are errors, too) or "off". Raises Diagnostic; further
-    independent findings are in its `others`.
+    `modifications` set structural parameters by their full name; `units` is "error", "warn" (findings, and components
+    that are not balanced by themselves, go to `FlatModel.warnings`), "all" (findings inside libraries are errors, too)
+    or "off". Raises Diagnostic; further independent findings are in its `others`.
     """
     cls = library.find(name)
     if cls.kind not in MODEL_KINDS or cls.partial:
