@@ -160,18 +160,31 @@ def assignment(item: ast.Assignment, scope: Scope) -> list[flat.Statement]:
     else:
         sides = [(lower(item.target, scope), lower(item.value, scope))]
     result: list[flat.Statement] = []
+    written: list[Expr | str] = []
     for target, value in sides:
         if shape_of(target) != shape_of(value):
             message = f"{shape_text(shape_of(target))} := {shape_text(shape_of(value))}"
             raise Diagnostic("R042", f"the sides differ in size: {message}", item.span, "both need the same size")
         for t, v in pairs(target, value, item.span, scope):
+            written.append(t)
             for chosen, new in _chosen(t, v):
                 check_target(chosen, item.span, scope)
                 check_types(chosen, v, item.span, scope)
                 result.append(flat.Assign(str(chosen.value), new, item.span))
-    if len(result) > 1:
+    if len(result) > 1 and (len(written) > 1 or _chosen_by_itself(written[0])):
         result = _simultaneous(result)
     return result
+
+
+def _chosen_by_itself(target: Expr | str) -> bool:
+    """Whether elements of an array decide which of them is meant. Otherwise all but one stay what they are, and the
+    value of that one may be read from any."""
+    elements, conditions = set(), set()
+    while isinstance(target, Expr) and target.op == "if":
+        conditions |= leaves(target.args[0])
+        elements.add(target.args[1])
+        target = target.args[2]
+    return not conditions.isdisjoint({*elements, target})
 
 
 def _chosen(target: Expr | str, value: Expr | str) -> list[tuple[Expr | str, Expr | str]]:

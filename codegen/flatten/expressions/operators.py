@@ -45,6 +45,8 @@ def _pre(e: ast.Call, scope: Scope) -> Value:
     def build(x: Expr) -> Expr:
         if x.op == "const" or (x.op == "var" and variability(x, scope.context) in ("parameter", "constant")):
             return x
+        if x.op == "if" and isinstance(written, ast.Ref):  # an element by a subscript that varies
+            return ex.if_else(x.args[0], *map(build, x.args[1:]))
         if x.op != "var":
             raise Diagnostic("R052", "pre is of a variable", written.span, "give the expression a variable of its own")
         return ex.pre(x)
