@@ -241,7 +241,8 @@ def _stacked(rows: list[Value], value: Array, part: Callable[[Value], Value], re
 def _row(array: Array, index: Expr, scope: Scope, ref: ast.Ref, written: ast.Expression) -> Value:
     number = known(index, scope, written.span, "the subscript").value
     if not 1 <= number <= array.shape[0]:
-        raise Diagnostic("R045", f"{ref}[{number}] is outside 1..{array.shape[0]}", written.span, "arrays start at 1")
+        hint = "arrays start at 1" if number < 1 else "are the sizes as meant?"
+        raise Diagnostic("R045", f"{ref}[{number}] is outside 1..{array.shape[0]}", written.span, hint)
     return array.row(number - 1)
 
 

@@ -39,7 +39,12 @@ def call_external(signature: Signature, arguments: dict[str, Value], e: ast.Call
     given = [a for a in external.args if not any(r.names[0] in own for r in references(a))]
     by_name = not external.function or external.language != "C"  # of LAPACK all is handed over in places to work in
     values = list(arguments.values()) if by_name else [lower(a, inner) for a in given]
-    results = handler(values, ExternalCall(cls, scope, e.span))
+    try:
+        results = handler(values, ExternalCall(cls, scope, e.span))
+    except Diagnostic as error:
+        if scope.instance is not None and scope.instance.name:
+            error.notes.append((scope.instance.span, f"of {scope.instance.name}, which is declared here"))
+        raise
     outputs = [local.name for local in signature.outputs]
     places = [str(a) for a in (external.result, *external.args) if a is not None and str(a) in outputs] or outputs
     if len(places) != len(results):
