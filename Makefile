@@ -166,7 +166,7 @@ coverage: setup ## [COVERED="tests"] lines and branches of C, C++ and Python tha
 threads: $(BUILD)/.debian ## The C and C++ tests that start threads, under the thread sanitizer
 	@cmake -S . -B $(BUILD)/thread -G Ninja -DCMAKE_BUILD_TYPE=Debug -DLACUNA_SANITIZE=thread > $(BUILD)/thread.log
 	@ninja -C $(BUILD)/thread --quiet $(THREADED) | sed '/no work to do/d'
-	@$(call run_ctest,$(BUILD)/thread,--exclude-regex NOT_BUILT)
+	@$(call run_ctest,$(BUILD)/thread,--exclude-regex '^fuzz|NOT_BUILT')
 
 # Left out is what SUNDIALS 7.1 does itself: its logger reads a file's name from the environment, and writes through the
 # null pointer where its own first allocation fails.
