@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -57,9 +58,19 @@ def opened(case: Case, library: Library) -> tuple[Explanation, Machine | None]:
 def _of_model(machine: Machine) -> list[Problem]:
     """What would be an error of the believed model elsewhere, and hinders nothing here: its units, components of it
     that are not balanced by themselves."""
-    found = [w for w in machine.compiled.report.warnings if w.code[0] in "UR" and w.span is not None]
-    text = "{} (it hinders nothing here; lacuna check says what to write)"
-    return [Problem("model", f"{w.span}", "", None, text.format(w.message.split("\n")[0]), False) for w in found]
+    said = "{} (it hinders nothing here; lacuna check says what to write)"
+    return [
+        Problem(
+            "model",
+            f"{Path(w.span.file).name}, line {w.span.line}",
+            "",
+            None,
+            said.format(w.message.split("\n")[0]),
+            False,
+        )
+        for w in machine.compiled.report.warnings
+        if w.code[0] in "UR" and w.span is not None
+    ]
 
 
 def prepared(case: Case, without: tuple[str, ...] = ()) -> Explanation:
