@@ -9,9 +9,6 @@ import numpy as np
 
 from lacuna.discovery.case.cases import Case, Recording
 
-FEW = 6, 1000  # steps, or one in so many, that a signal may make of its own beyond its usual ones
-FAR = 8.0  # times the largest usual step
-
 
 def spikes(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(numbers of such samples of a signal (n,), how far each jumps and returns); missing samples between are passed
@@ -21,11 +18,11 @@ def spikes(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     left, right = own[1:-1] - own[:-2], own[1:-1] - own[2:]
     size = np.where(left * right > 0, np.minimum(np.abs(left), np.abs(right)), 0.0)
     steps = np.sort(np.abs(np.diff(own)))
-    few = max(FEW[0], len(steps) // FEW[1])
+    few = max(6, len(steps) // 1000)  # steps that a signal may make of its own, beyond its usual ones: of three spikes
     if len(steps) <= few:
         return seen[:0], size[:0]
     usual = max(float(steps[-1 - few]), 1e-300)
-    found = np.flatnonzero(size > FAR * usual)
+    found = np.flatnonzero(size > 8 * usual)  # an order of magnitude: no course of its own
     return seen[1:-1][found], size[found]
 
 
