@@ -171,7 +171,6 @@ static rt_status solve_initial_equations(rt_session *s) {
     bool changed = settle_relations(s, i >= MAX_ITERATIONS / 2);
     memcpy(s->when_before, m->when, (size_t)s->d->n_when);
     memcpy(s->x_swept, m->x, (size_t)s->d->n_x * sizeof *m->x);
-    if (s->d->time_relations(m, s->t)) return fail_initialisation(s);
     if (s->d->event(m, s->t, m->x, m->xdot, m->v)) return fail_initialisation(s);
     if (rt_tangent_initial_event(s)) return s->failure.status;
     changed |= memcmp(m->d, m->pre_d, (size_t)s->d->n_d * sizeof *m->d) != 0;

@@ -20,7 +20,7 @@ from lacuna.codegen.symbolic.rewrite import assigned
 
 def followers(steps: Sequence[EventStep], explicit: Sequence[Step], relations: Sequence[Relation]) -> frozenset[int]:
     """Numbers of such relations that something with a memory reads: a when-clause, an algorithm, what reads pre(n).
-    What else there is follows them in the next pass."""
+    What else there is follows them in the next pass; so do those that compare what is set through other equations."""
     made = [(unknowns_of(s), expressions_of(s)) for s in explicit]
     first_relation = len(made)
     made += [([], [r.left, r.right]) for r in relations]
@@ -42,7 +42,8 @@ def followers(steps: Sequence[EventStep], explicit: Sequence[Step], relations: S
         if any(k in decide for k in component):
             decide.update(n for k in component for n in needs[k])
     found = range(first_relation, first_part)
-    return frozenset(k - first_relation for k in found if k in follow and k in decide and k in alone)
+    directly = {k for k in found if not any(n in follow and n < first_part for n in needs[k])}
+    return frozenset(k - first_relation for k in directly & follow & decide & alone)
 
 
 def _parts(step: EventStep) -> list[EventStep]:

@@ -17,6 +17,7 @@ from lacuna.codegen.emit.text.steps import comment, place
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.constants import dependency_order
 from lacuna.codegen.symbolic.expr import relation, sub, var, walk
+from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import assigned
 
 EVENT = "static int mdl_event(mdl_data *m, double t, double *x, const double *xdot, const double *v)"
@@ -43,6 +44,8 @@ class Discrete:
     def event(self) -> str:
         body = Body(self._names, self._storage.point)
         self._body = body
+        if self._has_moving_time_relations():
+            body.preamble("(void)mdl_time_relations(m, t);")
         for step in self._p.events:
             match step:
                 case DiscreteEquation():
@@ -62,6 +65,11 @@ class Discrete:
     def _equation(self, step: DiscreteEquation) -> None:
         self._body.plan([step.value])
         self._body.let(var(step.target, self._type(step.target)), step.value)
+
+    def _has_moving_time_relations(self) -> bool:
+        """Whether the instant of a time relation depends on discrete variables: it follows them from pass to pass."""
+        used = [leaves(sub(r.left, r.right)) for _, r in self._timed()]
+        return any(n.op == "pre" or self._storage.is_discrete(n) for found in used for n in found)
 
     def _type(self, name: str) -> str:
         return self._p.model.variables[name].type
