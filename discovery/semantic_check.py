@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 import math
+from pathlib import Path
 
 import numpy as np
 
@@ -284,3 +285,12 @@ def _lag_of_changes(measured: np.ndarray, simulated: np.ndarray, span: int, reac
     while (lower := max(best - 1, 0) + int(np.argmin(errors[max(best - 1, 0) : best + 2]))) != best:
         best = lower
     return int(lags[best]), 1.0 - errors[best] / base if base > 0 else 0.0
+
+
+def strict_elsewhere(machine: Machine) -> list[Problem]:
+    """What would be an error of the believed model elsewhere, and hinders nothing here: its units, components of it
+    that are not balanced by themselves."""
+    found = [w for w in machine.compiled.report.warnings if w.code[0] in "UR" and w.span is not None]
+    said = "{} (it hinders nothing here; lacuna check says what to write)"
+    pairs = [(f"{Path(w.span.file).name}, line {w.span.line}", w.message.partition("\n")[0]) for w in found]
+    return [Problem("model", place, "", None, said.format(text), False) for place, text in pairs]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
@@ -38,7 +37,7 @@ from lacuna.discovery.naming.dips import explored, is_smooth
 from lacuna.discovery.naming.judge import judge, noise_floor, try_judge
 from lacuna.discovery.naming.name import rank
 from lacuna.discovery.naming.search import Search
-from lacuna.discovery.semantic_check import slips
+from lacuna.discovery.semantic_check import slips, strict_elsewhere
 
 Progress = Callable[[str], None]
 
@@ -51,26 +50,8 @@ def opened(case: Case, library: Library) -> tuple[Explanation, Machine | None]:
     if result.reason:
         return result, None
     machine = _believed_machine(result.case, believed_structure(result.case, library))
-    result.problems += [*_of_model(machine), *slips(machine)]
+    result.problems += [*strict_elsewhere(machine), *slips(machine)]
     return result, machine if _trusted(result, "the recordings contradict themselves") else None
-
-
-def _of_model(machine: Machine) -> list[Problem]:
-    """What would be an error of the believed model elsewhere, and hinders nothing here: its units, components of it
-    that are not balanced by themselves."""
-    said = "{} (it hinders nothing here; lacuna check says what to write)"
-    return [
-        Problem(
-            "model",
-            f"{Path(w.span.file).name}, line {w.span.line}",
-            "",
-            None,
-            said.format(w.message.split("\n")[0]),
-            False,
-        )
-        for w in machine.compiled.report.warnings
-        if w.code[0] in "UR" and w.span is not None
-    ]
 
 
 def prepared(case: Case, without: tuple[str, ...] = ()) -> Explanation:
