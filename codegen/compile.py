@@ -133,10 +133,17 @@ def translate(
 ) -> tuple[Prepared, Report]:
     """All passes up to, not including, C: for `--dump` and for tests. `units`: see `flatten`."""
     report = Report()
-    try:
+    with not_too_deep(name):
         library = report.run("library", Library, search_path, access)
         model = report.run("flatten", flatten, library, name, dict(modifications or {}), units)
         return prepare(model, report), report
+
+
+@contextmanager
+def not_too_deep(name: str) -> Iterator[None]:
+    """Raises P013 where the expressions of the model `name` are nested beyond what Python follows."""
+    try:
+        yield
     except RecursionError:
         hint = "give parts of it names of their own; a loop of a function that is unrolled nests as often as it runs"
         raise Diagnostic("P013", f"{name} has an expression that is nested too deeply", None, hint) from None
@@ -155,8 +162,8 @@ def compile_model(
 ) -> CompiledModel:
     """Translate and compile a model, or take it from the cache where nothing that it was made from has changed.
 
-    `units`: what an inconsistent unit is, "error" or "warn" (a warning in the report). `sensitivities`: with the
-    derivatives that a run with sensitivities needs (its C is twice as long, and a model of its own in the cache).
+    `units`: see `flatten`. `sensitivities`: with the derivatives that a run with sensitivities needs (its C is twice as
+    long, and a model of its own in the cache).
     `access`: what a model may reach beyond its text. `quick`: in half the time, where a model is one of hundreds that
     are looked at (its C is optimised less, its results are the same). Raises Diagnostic (a finding about the model) or
     cache.CompilerError (the C compiler failed).

@@ -11,8 +11,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.gaps import without_gaps
 from lacuna.discovery.case.problem import CaseError
-from lacuna.discovery.case.recordings_check import Problem, check_case
-from lacuna.discovery.case.spikes import without_spikes
+from lacuna.discovery.case.recordings_check import Problem, check_case, without_spikes
 from lacuna.discovery.case.thinning import said_of, thinned
 from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment

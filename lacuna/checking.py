@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from lacuna.codegen.compile import Report, prepare
+from lacuna.codegen.compile import Report, not_too_deep, prepare
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flat import FlatModel
 from lacuna.codegen.flatten import flatten
@@ -42,8 +42,9 @@ def check(
     """Names, types, units, structure of the language; a warning where the equations cannot be solved for the variables:
     a component that others connect to need not be a model by itself. Raises Diagnostic with all findings."""
     source = Source.of(model, class_name, libraries, units, data, allow_external)
-    flat = flatten(Library(source.path, source.access), source.name, units=units)
-    warnings = [*flat.warnings, *_unsolvable(flat)]
+    with not_too_deep(source.name):
+        flat = flatten(Library(source.path, source.access), source.name, units=units)
+        warnings = [*flat.warnings, *_unsolvable(flat)]
     continuous = sum(v.variability == "continuous" for v in flat.variables.values())
     return Finding(flat.name, len(flat.variables), continuous, len(flat.equations), tuple(map(str, warnings)))
 

@@ -20,7 +20,7 @@ class RecordingError(AnalysisError):
     """A file that is no recording, or is damaged; the message says which, where and why."""
 
 
-_EXACT = 2**53
+_EXACT = 2**53  # whole numbers up to which a Real holds every one
 
 
 @dataclass(frozen=True)
@@ -176,9 +176,7 @@ def on_one_time(channels: Sequence[Channel]) -> tuple[np.ndarray, list[np.ndarra
     first = channels[0].time
     if all(c.time is first or np.array_equal(c.time, first) for c in channels):
         return first, [c.values for c in channels]
-    again = [
-        np.arange(len(c.time)) - np.searchsorted(c.time, c.time) for c in channels
-    ]  # how often it was there before
+    again = [np.arange(len(c.time)) - np.searchsorted(c.time, c.time) for c in channels]  # samples there before it
     pairs = [np.stack([c.time, n], axis=1) for c, n in zip(channels, again, strict=True)]
     time = np.unique(np.concatenate(pairs), axis=0)[:, 0]
     columns = []

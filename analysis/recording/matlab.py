@@ -25,7 +25,7 @@ def read(path: Path) -> Recorded:
         names, units = _texts(content["names"]), _texts(content.get("units", []))
         if np.iscomplexobj(content["data"]):
             raise RecordingError(f"{path}: its data are complex; a recording is of real numbers")
-        table, time = np.atleast_2d(np.asarray(content["data"], float)), np.ravel(content["time"]).astype(float)
+        table, time = np.atleast_2d(as_reals(path, "data", content["data"])), np.ravel(content["time"]).astype(float)
         columns = table.T if table.shape == (len(time), len(names)) else table
         if columns.shape != (len(names), len(time)):
             found = f"{len(names)} names, {len(time)} times and data of {' by '.join(map(str, table.shape))}"
@@ -59,7 +59,9 @@ def _hdf5(path: Path) -> dict[str, Any]:
     def keep(name: str, item: Any) -> None:
         if isinstance(item, h5py.Dataset) and not name.startswith("#"):
             numeric = item.dtype.kind in "fiub" and item.attrs.get("MATLAB_class") != b"char"
-            content[name.replace("/", ".")] = np.asarray(item[()], float).T if numeric else None  # columns come first
+            content[name.replace("/", ".")] = (
+                as_reals(path, name, item[()]).T if numeric else None
+            )  # columns come first
 
     try:
         with h5py.File(path) as file:

@@ -33,11 +33,8 @@ def experiment_of(top: Instance) -> flat.Experiment:
         if found:
             entries = from_tree(ast.Modification(found[0].span, arguments=found), Scope(top.context, cls, top))
             said = entries.children["experiment"].children
-            unknown = [
-                a
-                for a in found[0].modification.arguments
-                if a.name not in (*_FIELDS, _INTERVALS) and a.name[:2] != "__"
-            ]
+            known = (*_FIELDS, _INTERVALS)
+            unknown = [a for a in found[0].modification.arguments if a.name not in known and a.name[:2] != "__"]
             warn(unknown, "an experiment has no {}", list(_FIELDS), top.context)
             for name, entry in said.items():
                 if name in _FIELDS and entry.value is not None:

@@ -7,7 +7,7 @@ sensor may have no noise there.
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
@@ -57,8 +57,7 @@ def check_recording(recording: Recording, signals: dict[str, Signal]) -> list[Pr
         values = recording.columns[signal.column]
         problems += _missing(recording, signal, values)
         if signal.role == "output":  # a command may stand, jump and end where it likes
-            seen = np.isfinite(values)
-            seen[seen] = ~_rests(values[seen], signal)
+            seen = _moves(signal, values)
             own = Recording(recording.name, recording.time[seen], {signal.column: values[seen]})
             problems += _clipped(own, signal, values[seen]) or _frozen(own, signal, values[seen])
             problems += _outliers(recording, signal, values)
@@ -187,8 +186,34 @@ def _clipped(recording: Recording, signal: Signal, values: np.ndarray) -> list[P
     return problems
 
 
+def _moves(signal: Signal, values: np.ndarray) -> np.ndarray:
+    """Which samples (n,) are there, and are not those of a machine at rest."""
+    seen = np.isfinite(values)
+    seen[seen] = ~_rests(values[seen], signal)
+    return seen
+
+
+def _spikes(signal: Signal, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    return spikes(np.where(_moves(signal, values), values, np.nan))
+
+
+def without_spikes(case: Case) -> Case:
+    """The case with single samples that a logger spoilt as missing ones of their outputs."""
+
+    def cleared(recording: Recording) -> Recording:
+        columns = dict(recording.columns)
+        for signal in case.outputs:
+            found, _ = _spikes(signal, columns[signal.column])
+            if len(found):
+                columns[signal.column] = columns[signal.column].copy()
+                columns[signal.column][found] = np.nan
+        return replace(recording, columns=columns)
+
+    return replace(case, fit=[cleared(r) for r in case.fit], validate=[cleared(r) for r in case.validate])
+
+
 def _outliers(recording: Recording, signal: Signal, values: np.ndarray) -> list[Problem]:
-    found, size = spikes(values)
+    found, size = _spikes(signal, values)
     if not len(found):
         return []
     count = "1 single sample jumps" if len(found) == 1 else f"{len(found)} single samples jump"

@@ -1,13 +1,9 @@
 """Single samples of an output that leave and return at once, far outside the signal's own steps: errors of a logger,
-not of a machine. They are left out, as samples that are missing, and the report says so."""
+not of a machine."""
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
-
-from lacuna.discovery.case.cases import Case, Recording
 
 
 def spikes(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -24,18 +20,3 @@ def spikes(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     usual = max(float(steps[-1 - few]), 1e-300)
     found = np.flatnonzero(size > 8 * usual)  # an order of magnitude: no course of its own
     return seen[1:-1][found], size[found]
-
-
-def without_spikes(case: Case) -> Case:
-    """The case with such samples of its outputs as missing ones."""
-
-    def cleared(recording: Recording) -> Recording:
-        columns = dict(recording.columns)
-        for signal in case.outputs:
-            found, _ = spikes(columns[signal.column])
-            if len(found):
-                columns[signal.column] = columns[signal.column].copy()
-                columns[signal.column][found] = np.nan
-        return replace(recording, columns=columns)
-
-    return replace(case, fit=[cleared(r) for r in case.fit], validate=[cleared(r) for r in case.validate])

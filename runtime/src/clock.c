@@ -66,7 +66,7 @@ int rt_clock_due(rt_session *s) {
 
 static void log_time_relations(rt_session *s) {
   for (int r = 0; r < s->d->n_rel; r++)
-    if ((s->d->relations[r].kind & MDL_OF_TIME) && s->data.rel[r] != s->rel_before[r])
+    if (!rt_is_state_relation(s, r) && s->data.rel[r] != s->rel_before[r])
       rt_result_log(s->result, s->t, RT_EVENT_TIME, r, s->data.rel[r] ? 1 : -1, 1);
 }
 

@@ -36,7 +36,7 @@ static bool update_relation(rt_session *s, int r, double hysteresis) {
 static bool update_relations(rt_session *s, bool singly) {
   bool changed = false;
   for (int r = 0; r < s->d->n_rel && !(singly && changed); r++)
-    if (!(s->d->relations[r].kind & MDL_OF_TIME)) changed |= update_relation(s, r, singly ? 0 : rt_hysteresis(s, r));
+    if (rt_is_state_relation(s, r)) changed |= update_relation(s, r, singly ? 0 : rt_hysteresis(s, r));
   return changed;
 }
 
@@ -106,7 +106,7 @@ static int agree(rt_session *s) {
  */
 static void start_again(rt_session *s) {
   for (int r = 0; r < s->d->n_rel; r++)
-    if (s->data.rel[r] != s->rel_swept[r] && !(s->d->relations[r].kind & MDL_OF_TIME)) s->data.rel[r] = 0;
+    if (s->data.rel[r] != s->rel_swept[r] && rt_is_state_relation(s, r)) s->data.rel[r] = 0;
 }
 
 /* One pass: point, relations, discrete equations, by up to so many sweeps with the values before the event (pre) as

@@ -61,7 +61,7 @@ static rt_status set_parameters_and_starts(rt_session *s) {
 static bool settle_relations(rt_session *s, bool patient) {
   bool changed = false;
   for (int r = 0; r < s->d->n_rel; r++) {
-    if ((s->d->relations[r].kind & MDL_OF_TIME) || isnan(s->g[r])) continue;
+    if (!rt_is_state_relation(s, r) || isnan(s->g[r])) continue;
     if (patient && fabs(s->g[r]) <= rt_hysteresis(s, r)) continue;
     unsigned char now = s->g[r] > 0;
     changed |= now != s->data.rel[r];

@@ -116,7 +116,7 @@ static void add_cause(rt_session *s, rt_instant *at, const double *guard, double
 
 static void relation_cause(rt_session *s, rt_instant *at, int r) {
   rt_sensitivities *f = s->sensitivities;
-  if (!(s->d->relations[r].kind & MDL_OF_TIME)) {
+  if (rt_is_state_relation(s, r)) {
     memcpy(s->rel_trial, s->data.rel, (size_t)s->d->n_rel);
     memcpy(s->data.rel, s->rel_before, (size_t)s->d->n_rel);
     spread known = measure_spread(s, r);

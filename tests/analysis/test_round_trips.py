@@ -82,6 +82,8 @@ def test_whole_numbers_that_no_real_holds_are_refused_in_every_format(tmp_path: 
         file.save(tmp_path / "a.mf4")
     with nptdms.TdmsWriter(tmp_path / "a.tdms") as file:
         file.write_segment([nptdms.ChannelObject("g", "time", time), nptdms.ChannelObject("g", "n", large)])
-    for form in ("mat", "parquet", "mf4", "tdms"):
+    with pytest.importorskip("h5py").File(tmp_path / "a.hdf.mat", "w") as file:  # version 7.3
+        file["time"], file["n"] = time[None, :], large[None, :]
+    for form in ("mat", "parquet", "mf4", "tdms", "hdf.mat"):
         with pytest.raises(RecordingError, match=rf"a.{form}: n holds whole numbers beyond 2\^53"):
             read_recorded(tmp_path / f"a.{form}")
