@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 import time
@@ -213,8 +213,8 @@ class Model:
 
         `inputs` drive inputs by constants, (times, values) or recordings; those not named keep their start value.
         `parameters` replace declared values, `initial` the start values of states. Rows come every `interval` (s; by
-        default the model's own, else 500 over the run), with `event_rows` also before and after each event. `outputs`
-        restricts what is recorded. `rtol`: relative tolerance (default: the model's, else 1e-6); `atol`: absolute, for
+        default the model's own, else 500 over the run) and at the stop, with `event_rows` also around each event.
+        `outputs` restricts what is recorded. `rtol`: relative tolerance (default: the model's, else 1e-6); `atol`: absolute, for
         each unit of a variable's nominal value (default 0.01 rtol). `step` (s) is that of the fixed-step solvers;
         without `locate_events` they take events at its end. `sensitivities` names parameters, and states for their
         initial values, by which all outputs are differentiated (ida and dopri5): see `Result.sensitivity`. `progress`
@@ -252,6 +252,10 @@ class Model:
             if name in self.parameters:
                 raise UserError(f"{name} is a parameter of {self.name}, not an input: set it by parameters, or -p")
 
+    def __reduce__(self) -> tuple[Callable[..., Model], tuple[Source, dict[str, float], dict[str, float]]]:
+        """For other processes: loaded there again, from what was compiled here."""
+        return _loaded, self.request
+
     def __repr__(self) -> str:
         return f"<Model {self.name}: {self._model.n_states} states, {len(self.variables)} variables>"
 
@@ -261,6 +265,10 @@ class Model:
         driven = [(n, v.unit, v.description) for n, v in self.inputs.items()]
         size = f"{self.name}: {self._model.n_states} states, {len(self.variables)} variables"
         return page(size, table(head, rows), *([table(("input", "unit", ""), driven)] if driven else []))
+
+
+def _loaded(source: Source, fixed: Mapping[str, float], values: Mapping[str, float]) -> Model:
+    return Model(source, source.compiled(fixed), fixed, values)
 
 
 def _refuse_step(step: float | None, solver: str) -> None:

@@ -83,11 +83,11 @@ class _Owner:
 
 
 class _View:
-    """Memory of a C result, in the form that numpy takes without copying; `owner` keeps it alive."""
+    """Memory of a C result, in the form that numpy takes without copying, read-only; `owner` keeps it alive."""
 
     def __init__(self, owner: _Owner, address: int, rows: int, kind: str):
         self.owner = owner
-        self.__array_interface__ = {"data": (address, False), "shape": (rows,), "typestr": kind, "version": 3}
+        self.__array_interface__ = {"data": (address, True), "shape": (rows,), "typestr": kind, "version": 3}
 
 
 class Result:
@@ -110,6 +110,12 @@ class Result:
     def __repr__(self) -> str:
         state = "complete" if self.complete else f"incomplete: {self.failure}"
         return f"<Result of {self.model.name}: {self._rows} rows of {len(self.columns)} variables, {state}>"
+
+    def __reduce__(self) -> str | tuple:
+        raise TypeError(
+            f"a result of {self.model.name} looks into the memory of its run and cannot be copied or pickled: hand on "
+            "what is needed of it, its columns or a table of them"
+        )
 
     def __len__(self) -> int:
         return self._rows

@@ -123,8 +123,8 @@ RT_API rt_status rt_session_input(rt_session *session, int variable, int n, cons
                                   rt_interpolation interpolation);
 /* Columns to record, in this order. A new session records none. */
 RT_API rt_status rt_session_outputs(rt_session *session, int n, const int *variables);
-/* Record at these instants (borrowed, not decreasing). n = 0: every `interval` seconds from the start;
- * interval <= 0 too: at the end of every step. */
+/* Record at these instants (borrowed, not decreasing). n = 0: every `interval` seconds from the start,
+ * and at the stop; interval <= 0 too: at the end of every step. */
 RT_API rt_status rt_session_grid(rt_session *session, int n, const double *times, double interval);
 
 /* The tolerances in force: of the options, else of the model's experiment, else the runtime's own. */

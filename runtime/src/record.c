@@ -8,12 +8,14 @@ static bool on_grid(const rt_recorder *r) {
   return r->n_grid > 0 || r->interval > 0;
 }
 
-/* Time of grid point `i`; infinite after the last. */
+/* Time of grid point `i`; infinite after the last. Where the interval does not divide the run, the stop time is one,
+ * too: a run's last row is its end. */
 static double grid_time(const rt_session *s, long i) {
   const rt_recorder *r = &s->recorder;
   if (r->n_grid > 0) return i < r->n_grid ? r->grid[i] : INFINITY;
-  double t = s->start + (double)i * r->interval;
-  return t <= s->stop + s->clock.tolerance ? t : INFINITY;
+  double t = s->start + (double)i * r->interval, left = s->stop - t;
+  if (left >= -s->clock.tolerance) return t;
+  return left + r->interval > s->clock.tolerance ? s->stop : INFINITY;
 }
 
 void rt_record_begin(rt_session *s) {

@@ -5,12 +5,14 @@ from __future__ import annotations
 from concurrent.futures import ThreadPoolExecutor
 import os
 from pathlib import Path
+import pickle
 import subprocess
 import sys
 
 import numpy as np
 import pytest
 
+import lacuna
 from lacuna import runtime
 from lacuna.codegen.compile import compile_model
 from lacuna.runtime import files
@@ -274,3 +276,19 @@ def test_events_tell_the_relation_of_the_source_and_its_line(tmp_path: Path) -> 
     }
     assert {Path(e.file).name for e in log} == {"Ev.mo"}
     assert str(log[-1]).endswith("Ev.mo:11)")
+
+
+def test_a_result_cannot_be_changed_and_says_why_it_cannot_be_copied(servo: runtime.Model) -> None:
+    result = runtime.simulate(servo, stop=0.01, interval=1e-3)
+    with pytest.raises(ValueError, match="read-only"):
+        result[result.columns[0]][:] = 0
+    with pytest.raises(TypeError, match="its columns or a table"):
+        pickle.dumps(result)
+
+
+def test_a_model_goes_to_other_processes_with_its_values(tmp_path: Path) -> None:
+    text = "model Sent Real x(start=1, fixed=true); parameter Real k=1; parameter Integer n=2;\n"
+    text += "Real y[n] = {k*x for i in 1:n}; equation der(x) = -k*x; end Sent;"
+    (tmp_path / "Sent.mo").write_text(text, encoding="utf-8")
+    sent = pickle.loads(pickle.dumps(lacuna.load(tmp_path / "Sent.mo", parameters={"k": 2.0, "n": 3})))
+    assert sent.simulate(stop=1.0, rtol=1e-9)["y[3]"][-1] == pytest.approx(2 * np.exp(-2), rel=1e-6)

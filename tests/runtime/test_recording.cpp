@@ -44,6 +44,14 @@ TEST_P(Recording, GridWithoutEventRowsIsExactlyTheGrid) {
   }
 }
 
+TEST_P(Recording, TheLastRowIsTheStopTimeWhereTheGridDoesNotMeetIt) {
+  Result result = simulate<Ramp>({.solver = GetParam(), .events = false}, 1, 0.3);
+  ASSERT_EQ(result.rows(), 5u);
+  EXPECT_EQ(result.time(3), 3 * 0.3);
+  EXPECT_EQ(result.time(4), 1);
+  EXPECT_NEAR(result.at(0, 4), 1.5, 1e-8);
+}
+
 TEST_P(Recording, EventsHaveARowBeforeAndARowAfter) {
   Result result = simulate<Ramp>({.solver = GetParam()}, 1, 0.4);
   std::vector<size_t> rows;
