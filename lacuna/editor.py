@@ -28,17 +28,19 @@ class _Line(logging.Formatter):
     """What went wrong, in a line; with where in the code if LACUNA_DEBUG asks for it."""
 
     def format(self, record: logging.LogRecord) -> str:
-        if os.environ.get("LACUNA_DEBUG") or record.exc_info is None:
+        if os.environ.get("LACUNA_DEBUG"):
             return super().format(record)
-        return f"lacuna lsp: {record.getMessage()}: {record.exc_info[1]}".replace("\n", " ")
+        said = record.getMessage().partition("\n")[0]  # pygls writes where in the code below it
+        why = f": {record.exc_info[1]}" if record.exc_info else ""
+        return f"lacuna lsp: {said}{why}".replace("\n", " ")
 
 
 def _say_in_a_line() -> None:
     """What is no message of the protocol is told on standard error, and the server goes on."""
     handler = logging.StreamHandler()
     handler.setFormatter(_Line())
-    logging.getLogger("pygls.server").addHandler(handler)
-    logging.getLogger("pygls.server").propagate = False
+    logging.getLogger("pygls").addHandler(handler)
+    logging.getLogger("pygls").propagate = False
 
 
 def format_model(text: str, file: str = "") -> str:

@@ -214,11 +214,12 @@ class Model:
         `inputs` drive inputs by constants, (times, values) or recordings; those not named keep their start value.
         `parameters` replace declared values, `initial` the start values of states. Rows come every `interval` (s; by
         default the model's own, else 500 over the run) and at the stop, with `event_rows` also around each event.
-        `outputs` restricts what is recorded. `rtol`: relative tolerance (default: the model's, else 1e-6); `atol`: absolute, for
-        each unit of a variable's nominal value (default 0.01 rtol). `step` (s) is that of the fixed-step solvers;
-        without `locate_events` they take events at its end. `sensitivities` names parameters, and states for their
-        initial values, by which all outputs are differentiated (ida and dopri5): see `Result.sensitivity`. `progress`
-        is told the share of the time that is simulated, about ten times a second; what it raises ends the run.
+        `outputs` restricts what is recorded. `rtol`: relative tolerance (default: the model's, else 1e-6); `atol`:
+        absolute, for each unit of a variable's nominal value (default 0.01 rtol). `step` (s) is that of the fixed-step
+        solvers; without `locate_events` they take events at its end. `sensitivities` names parameters, and states for
+        their initial values, by which all outputs are differentiated (ida and dopri5): see `Result.sensitivity`.
+        `progress` is told the share of the time that is simulated, about ten times a second; what it raises ends the
+        run.
 
         Raises UserError or SimulationError for what cannot be used, IncompleteRun (with its rows) where it ends early.
         """

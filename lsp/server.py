@@ -18,6 +18,7 @@ from lacuna.codegen.syntax.lexer import is_name
 from lacuna.lsp import features
 from lacuna.lsp.features import Workspace
 from lacuna.lsp.format import format_text
+from lacuna.lsp.protocol import AnsweringProtocol
 
 _SEVERITY = {"error": lsp.DiagnosticSeverity.Error, "warning": lsp.DiagnosticSeverity.Warning}
 
@@ -33,7 +34,8 @@ def _range(span: Span) -> lsp.Range:
 
 def make_server(search_path: list[str]) -> LanguageServer:
     """A server over classes looked up in `search_path`."""
-    server = LanguageServer("lacuna", lacuna.__version__, text_document_sync_kind=lsp.TextDocumentSyncKind.Full)
+    whole = lsp.TextDocumentSyncKind.Full
+    server = LanguageServer("lacuna", lacuna.__version__, text_document_sync_kind=whole, protocol_cls=AnsweringProtocol)
     workspace = Workspace(search_path)
     _documents(server, workspace)
     _questions(server, workspace)

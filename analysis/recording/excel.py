@@ -69,7 +69,8 @@ def _clocks(rows: np.ndarray) -> tuple[list[int], list[str]]:
 
 
 def _numbers(row: np.ndarray) -> bool:
-    return all(isinstance(c, int | float) and not isinstance(c, bool) for c in row) and any(c == c for c in row)
+    """Truth values become 0 and 1, as in every file that says the type of a column."""
+    return all(isinstance(c, int | float) for c in row) and any(c == c for c in row)
 
 
 def _text(cell: object) -> str:

@@ -148,6 +148,15 @@ def test_instants_are_time_and_truth_is_0_or_1(tmp_path: Path) -> None:
     assert recorded.notes[0].endswith("numbers: s") and recorded.notes[1].startswith("time begins at 0, which is 2024")
 
 
+def test_truth_in_a_spreadsheet_is_0_or_1(tmp_path: Path) -> None:
+    openpyxl = pytest.importorskip("openpyxl")
+    book = openpyxl.Workbook()
+    for row in (["time", "on"], [0.0, True], [0.1, False], [0.2, True]):
+        book.active.append(row)
+    book.save(tmp_path / "r.xlsx")
+    assert found(read_recorded(tmp_path / "r.xlsx")) == {"on": ("", [1, 0, 1])}
+
+
 def test_a_waveform_without_a_start_begins_at_zero(tmp_path: Path) -> None:
     nptdms = pytest.importorskip("nptdms")
     channels = [("a", "V", TIME, 0.1), ("b", "Nm", TIME[:3], 0.2)]
