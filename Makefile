@@ -125,7 +125,7 @@ ctest: setup
 	@$(call run_ctest,$(BUILD))
 
 pytest: setup
-	@$(PYTEST) -m "not slow" --durations=20 --durations-min=10
+	@$(PYTEST) -m "not slow" --durations=0 --durations-min=10
 
 check: lint sanitize ctest ## All checks: format, lint, warnings as errors, sanitizers, every test
 	@$(PYTEST)

@@ -218,8 +218,7 @@ class Model:
         absolute, for each unit of a variable's nominal value (default 0.01 rtol). `step` (s) is that of the fixed-step
         solvers; without `locate_events` they take events at its end. `sensitivities` names parameters, and states for
         their initial values, by which all outputs are differentiated (ida and dopri5): see `Result.sensitivity`.
-        `progress` is told the share of the time that is simulated, about ten times a second; what it raises ends the
-        run.
+        `progress` is told the share of the time simulated, about ten times a second; what it raises ends the run.
 
         Raises UserError or SimulationError for what cannot be used, IncompleteRun (with its rows) where it ends early.
         """

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-import subprocess
-import sys
 
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
@@ -275,29 +272,3 @@ def test_what_an_edit_leaves_alone_is_kept_and_what_it_touches_is_not(tmp_path: 
     assert codes((pack / "package.mo", 'package P "changed"\nend P;\n'), (top, text)) == []
     assert codes((top, text.replace("model Top", "model Tip").replace("end Top", "end Tip"))) != []
     assert codes((top, text)) == []
-
-
-def test_what_is_no_message_is_told_in_a_line_and_the_next_one_is_answered() -> None:
-    """Braces without JSON in them ended in a traceback."""
-    asked = b'{"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": {"capabilities": {}}}'
-    sent = b"".join(b"Content-Length: %d\r\n\r\n%b" % (len(text), text) for text in (b"{abc}", asked))
-    done = subprocess.run([sys.executable, "-m", "lacuna.cli.main", "lsp"], input=sent, capture_output=True, check=True)
-    assert done.stderr.count(b"\n") == 1 and done.stderr.startswith(b"lacuna lsp: Unable to handle message"), (
-        done.stderr
-    )
-    assert b'"serverInfo"' in done.stdout
-
-
-def test_a_request_without_what_it_needs_is_answered_by_an_error() -> None:
-    """It got no answer at all, and an editor waits."""
-    asked = [("initialize", {"capabilities": {}}), ("textDocument/hover", {"bad": 1}), ("shutdown", None)]
-    texts = [
-        json.dumps({"jsonrpc": "2.0", "id": n, "method": m, "params": p}).encode() for n, (m, p) in enumerate(asked)
-    ]
-    sent = b"".join(b"Content-Length: %d\r\n\r\n%b" % (len(text), text) for text in texts)
-    done = subprocess.run([sys.executable, "-m", "lacuna.cli.main", "lsp"], input=sent, capture_output=True, check=True)
-    answers = [
-        json.loads(part[part.index(b"{") : part.rindex(b"}") + 1]) for part in done.stdout.split(b"Content-Length")[1:]
-    ]
-    assert {a["id"]: a["error"]["code"] for a in answers if "error" in a and "id" in a} == {1: -32602}
-    assert any(a.get("id") == 2 for a in answers) and b"Traceback" not in done.stderr
