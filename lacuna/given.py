@@ -21,10 +21,10 @@ def require_file(path: Path, error: type[Exception]) -> None:
 
 
 def text_of(path: Path, error: type[Exception], encoding: str = "utf-8") -> str:
-    """Raises `error` where `path` cannot be read as text."""
+    """With the ends of lines that are there. Raises `error` where `path` cannot be read as text."""
     require_file(path, error)
     try:
-        return path.read_text(encoding=encoding)
+        return path.read_bytes().decode(encoding)
     except OSError as refused:
         raise error(f"{path}: cannot be read ({refused.strerror})") from refused
     except UnicodeDecodeError as refused:

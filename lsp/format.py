@@ -1,7 +1,8 @@
 """A stable formatter: indentation by nesting, no white space at the ends of lines, at most one empty line.
 
-Tokens, comments and the division into lines stay as they are: whoever breaks a line says something by it. A line that
-goes on with a statement keeps its distance from the statement's first line. Formatting twice is formatting once.
+Tokens, comments, the division into lines and what ends them stay as they are: whoever breaks a line says something by
+it. A line that goes on with a statement keeps its distance from the statement's first line. Formatting twice is
+formatting once.
 """
 
 from __future__ import annotations
@@ -17,39 +18,56 @@ _CLASSES = {"model", "block", "connector", "record", "package", "function", "cla
 _SECTIONS = {"equation", "algorithm", "public", "protected"}
 _BLOCKS = {"for", "when", "while"}
 _BRANCHES = {"else", "elseif", "elsewhen"}
+_WHITE = " \t\r"
+_COMMENT = re.compile(r"//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/")
 
 
 def format_text(text: str, file: str = "") -> str:
     """`text` formatted. Raises Diagnostic where it does not parse, so that nothing broken is moved about."""
     parse(text, file)
     source = tokenize(text, file)
-    inside = _inside_tokens(text, source)
+    inside = _inside_tokens(source)
     depths = _Nesting(source).lines()
-    lines = text.splitlines()
+    lines = text.split("\n")  # only: a line separator or a form feed does not end a comment
+    ending = "\r" if lines[0].endswith("\r") else ""
     result, shift = [], 0
     for number, line in enumerate(lines):
         if number in inside:
             result.append(line)
             continue
-        stripped, indent = line.strip(), len(line.expandtabs(STEP)) - len(line.expandtabs(STEP).lstrip())
+        stripped, indent = line.strip(_WHITE), _width(line)
         if stripped and number in depths:
             wanted = STEP * depths[number]
             shift = wanted - indent
             indent = wanted
         elif stripped:
             indent = max(0, indent + shift)
-        if stripped or (result and result[-1]):
-            body = line.lstrip() if number + 1 in inside else stripped
-            result.append(" " * indent + body if stripped else "")
-    return "\n".join(result).strip("\n") + "\n"
+        if stripped or (result and result[-1] != ending):
+            body = line.lstrip(_WHITE) if number + 1 in inside else stripped + ending
+            result.append(" " * indent + body if stripped else ending)
+    return "\n".join(result).strip("\r\n") + ending + "\n"
 
 
-def _inside_tokens(text: str, source: Source) -> set[int]:
-    """Lines (from zero) that begin inside a string or a comment, which are left as they are."""
+def _width(line: str) -> int:
+    """Of the white space that a line begins with."""
+    return len(line[: len(line) - len(line.lstrip(_WHITE))].expandtabs(STEP))
+
+
+def _inside_tokens(source: Source) -> set[int]:
+    """Lines (from zero) that begin inside a token or a comment, which are left as they are."""
     found: set[int] = set()
-    for match in re.finditer(r'"(?:[^"\\]|\\.)*"|//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/', text, re.DOTALL):
-        first = text.count("\n", 0, match.start())
-        found.update(range(first + 1, first + 1 + match[0].count("\n")))
+
+    def add(begin: int, text: str) -> None:
+        if "\n" in text:
+            first = source.span(begin).line
+            found.update(range(first, first + text.count("\n")))
+
+    end = 0
+    for offset, word in zip(source.offsets, [*source.words[:-1], ""], strict=True):
+        for comment in _COMMENT.finditer(source.text, end, offset):
+            add(comment.start(), comment[0])
+        add(offset, word)
+        end = offset + len(word)
     return found
 
 

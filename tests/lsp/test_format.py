@@ -124,3 +124,23 @@ def test_an_empty_name_is_not_the_present_folder(tmp_path: Path, monkeypatch: py
     result = CliRunner().invoke(app, ["format", ""])
     assert result.exit_code == 2 and "an empty name" in result.output
     assert (tmp_path / "C.mo").read_text() == "model C\nReal x = 1;\nend C;\n"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        'model A\n  Real \'a"b\' = 1;\n  constant String s = "line1\n     line2   \n   line3";\nend A;\n',
+        "model B\n  Real x = 1; // note\u2028 Real y = 2;\n  Real z = 3; // page\f Real w = 4;\nend B;\n",
+        "model C\n  constant String s = \"a\u2028b\f\v  d\";\n  Real 'x/*' = 1;\nend C;\n",
+        'model D\r\n  Real x = 1; // c\r\n\r\n  constant String s = "a\r\n    b";\r\nend D;\r\n',
+        "model R\n  Real x = 1; // off:\r Real y = 2;\nend R;\n",
+        "model K /* from\n    here // */\n  Real x = 1; /* and\n       there */\nend K;\n",
+    ],
+)
+def test_characters_that_others_take_for_the_end_of_a_line_are_none(text: str, tmp_path: Path) -> None:
+    """They became line breaks, within comments and strings; a quote within a name began a string."""
+    (tmp_path / "M.mo").write_bytes(text.encode())
+    assert not lacuna.format_file(tmp_path / "M.mo")
+    untidy = text.replace("\n  Real", "\n     Real")
+    (tmp_path / "M.mo").write_bytes(untidy.encode())
+    assert lacuna.format_file(tmp_path / "M.mo") and (tmp_path / "M.mo").read_bytes() == text.encode()

@@ -45,17 +45,8 @@ def discrete_starts(model: flat.FlatModel) -> flat.FlatModel:
             )  # fmt: skip
         else:
             computed[name] = flat.Assign(name, value, eq.span)
-    _start_as_defined(by_equation, model.equations, variables)
     model = replace(model, variables=variables, initial_equations=equations)
     return _with_assignments(model, computed) if computed else model
-
-
-def _start_as_defined(names: set[str], equations: list[flat.Equation], variables: dict[str, flat.Variable]) -> None:
-    """Discrete variables that follow from parameters at all times start so: functions may have no value at 0."""
-    for eq in equations:
-        v = variables.get(_discrete_name(eq.lhs)) if eq.lhs.op == "var" else None
-        if v is not None and v.name in names and v.start is None and is_parametric(eq.rhs, variables):
-            variables[v.name] = replace(v, start=eq.rhs)
 
 
 def _reads_pre(eq: flat.Equation) -> bool:

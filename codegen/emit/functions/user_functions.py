@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 
 from lacuna.codegen import flat
 from lacuna.codegen.emit.functions.endless import calls_of, is_recursive
-from lacuna.codegen.emit.functions.function_body import FunctionBody, declarations, returns_value
+from lacuna.codegen.emit.functions.function_body import FunctionBody, c_type, declarations, returns_value
 from lacuna.codegen.emit.text.expression import function_name
 from lacuna.codegen.emit.text.names import Names
 from lacuna.codegen.symbolic.function_tangent import by_name
@@ -54,9 +54,9 @@ def _prototype(body: str) -> str:
 
 def _first_result(f: flat.Function) -> str:
     arguments, names = declarations(f, Names(f.shapes))
-    pointers = ["&result", *["NULL"] * (len(f.outputs) - 1)]
+    pointers, kind = ["&result", *["NULL"] * (len(f.outputs) - 1)], c_type(f, f.outputs[0])
     return (
-        f"static double {function_name(f.name)}({', '.join(arguments)}) {{\n"
-        f"  double result = 0.0;\n  {function_name(f.name, whole=True)}({', '.join(['m', *names, *pointers])});\n"
+        f"static {kind} {function_name(f.name)}({', '.join(arguments)}) {{\n"
+        f"  {kind} result = 0;\n  {function_name(f.name, whole=True)}({', '.join(['m', *names, *pointers])});\n"
         "  return result;\n}"
     )
