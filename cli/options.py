@@ -26,7 +26,7 @@ Libraries = Annotated[
 Units = Annotated[
     Literal["error", "warn", "all"],
     typer.Option(
-        help="Where units do not agree, or a component is not balanced by itself: an error, a warning, or "
+        help="Where units do not agree, or a component or connector is not balanced: an error, a warning, or "
         "(all) an error of units in libraries, too"
     ),
 ]

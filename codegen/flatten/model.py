@@ -51,8 +51,8 @@ def flatten(
     """The flat model of class `name` (see `Library.find`), every check of the front end done.
 
     `modifications` set structural parameters by their full name; `units` is "error", "warn" (findings, and components
-    that are not balanced by themselves, go to `FlatModel.warnings`), "all" (findings inside libraries are errors, too)
-    or "off". Raises Diagnostic; further independent findings are in its `others`.
+    and connectors that are not balanced by themselves, go to `FlatModel.warnings`), "all" (findings inside libraries
+    are errors, too) or "off". Raises Diagnostic; further independent findings are in its `others`.
     """
     cls = library.find(name)
     if cls.kind not in MODEL_KINDS or cls.partial:
@@ -63,22 +63,20 @@ def flatten(
     library.forget_views()
     context = Context(library, Path(cls.span.file).resolve().parent, LOWERING, cls.path)
     top = Instance(context, cls, "", None, _outside_modifier(modifications or {}, cls.span))
-    leaves, sections, buses = _instantiate(top)
+    imbalance = "warning" if units == "warn" else "error"
+    leaves, sections, buses = _instantiate(top, imbalance)
     context.finish()
     model = flat.FlatModel(cls.path, cls.span, cls.description)
-    for leaf in leaves:
-        with context.attempt():
-            flatten_variables(leaf, model)
+    _flatten_variables(leaves, model, context)
     body, initial = _sections(sections)
     expand(body.connections, buses, context)
-    for leaf in _leaves_of(buses):
-        with context.attempt():
-            flatten_variables(leaf, model)
+    _flatten_variables(_leaves_of(buses), model, context)
     model.equations += body.equations + connection_equations(body.connections, context)
     stream_variables(model, context)
     derivative_variables(model, context)
     context.finish()
-    _check_connections(leaves, buses, body, context, "warning" if units == "warn" else "error")
+    check_components(leaves, buses, body, context, imbalance)
+    check_annotations(leaves, context)
     model.whens, model.algorithms, model.initial_equations = body.whens, body.algorithms, initial.equations
     model.asserts = body.asserts + initial.asserts + context.table(Required)
     model.functions, model.derivatives = context.functions, context.derivatives
@@ -97,12 +95,10 @@ def flatten(
     return model
 
 
-def _check_connections(
-    leaves: list[Leaf], buses: list[Instance], body: Collected, context: Context, severity: str
-) -> None:
-    """What holds of components once everything is connected; what is not balanced is of that severity."""
-    check_components(leaves, buses, body, context, severity)
-    check_annotations(leaves, context)
+def _flatten_variables(leaves: Iterable[Leaf], model: flat.FlatModel, context: Context) -> None:
+    for leaf in leaves:
+        with context.attempt():
+            flatten_variables(leaf, model)
 
 
 def _check_units(model: flat.FlatModel, context: Context, mode: str) -> flat.FlatModel:
@@ -145,9 +141,11 @@ def _number(value: float | int | bool) -> Expr:
     return ex.const(int(value) if whole else value)
 
 
-def _instantiate(top: Instance) -> tuple[list[Leaf], list[tuple[ast.Section, ast.Class, Instance]], list[Instance]]:
+def _instantiate(
+    top: Instance, imbalance: str
+) -> tuple[list[Leaf], list[tuple[ast.Section, ast.Class, Instance]], list[Instance]]:
     """Every variable and every section below `top`, in order of declaration, and the expandable connectors: what they
-    hold follows from the connections."""
+    hold follows from the connections. Connectors that are not balanced are of that severity."""
     buses: list[Instance] = []
     leaves: list[Leaf] = []
     sections: list[tuple[ast.Section, ast.Class, Instance]] = []
@@ -158,7 +156,7 @@ def _instantiate(top: Instance) -> tuple[list[Leaf], list[tuple[ast.Section, ast
             return
         if instance.cls.kind == "connector" and not (instance.parent is not None and instance.parent.in_connector):
             with instance.context.attempt():
-                check_balance(instance)
+                check_balance(instance, imbalance)
         look_at(instance, list(instance.elements))
         sections.extend((section, cls, instance) for section, cls in instance.sections)
 

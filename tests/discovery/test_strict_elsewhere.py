@@ -1,5 +1,5 @@
-"""A believed model that `lacuna check` refuses for its units, or for a component without an equation of its own, is
-explained all the same; what is wrong with it is said, by file and line."""
+"""A believed model that `lacuna check` refuses for its units, or for a part that is not balanced, is explained all the
+same; what is wrong with it is said, by file and line."""
 
 from __future__ import annotations
 
@@ -23,11 +23,37 @@ equation
   der(x) = v;
 end Rail;
 """ + CART.replace("equation", "  Rail rail;\nequation\n  rail.v = v;")  # fmt: skip
+UNEVEN = """connector Flange
+  Real x;
+  Real v;
+  flow Real f;
+end Flange;
+model Damper
+  Flange a;
+  parameter Real d(unit="N.s/m") = 0.25;
+equation
+  a.f = d*a.v;
+end Damper;
+model Post
+  Flange p;
+  input Real x, v;
+  output Real f = p.f;
+equation
+  p.x = x;
+  p.v = v;
+end Post;
+""" + CART.replace(
+    "equation", "  Damper damper;\n  Post post(x=x, v=v);\nequation\n  connect(post.p, damper.a);"
+).replace("F - d*v", "F - (d - damper.d)*v + post.f")
 
 
 @pytest.mark.parametrize(
     ("believed", "code", "said"),
-    [(SLIP, "U002", "line 10: units differ"), (LACKS, "R078", "line 1: Rail is not balanced")],
+    [
+        (SLIP, "U002", "line 10: units differ"),
+        (LACKS, "R078", "line 1: Rail is not balanced"),
+        (UNEVEN, "R077", "line 1: the connector Flange has 1 flows and 2 potentials"),
+    ],
 )
 def test_it_is_said_and_hinders_nothing(tmp_path: Path, believed: str, code: str, said: str) -> None:
     folder, machine = concealed(tmp_path, "Cart", CART, believed, CASE.replace("hold", "linear"))

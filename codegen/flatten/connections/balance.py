@@ -7,14 +7,21 @@ from collections.abc import Iterator
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.instance import ArrayNode, Instance, Node
 from lacuna.codegen.flatten.classes.leaf import Leaf
+from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import own_or_inherited
 from lacuna.codegen.syntax import ast
 
 CONSTRAINT = "equalityConstraint"
 
 
-def check_balance(connector: Instance) -> None:
-    """Raises R077 for a connector whose flows and potentials differ in number, or with streams and not one flow.
+class Uneven(list[Instance]):
+    """Connectors whose flows and potentials differ in number."""
+
+
+def check_balance(connector: Instance, severity: str = "error") -> None:
+    """Raises R077 for a connector with streams and not one flow, and notes it, of that severity, for one whose flows
+    and potentials differ in number: connections give equations for each, and whether the whole model has as many as
+    unknowns, its structure answers.
 
     One with an overdetermined type (9.4) has more potentials than flows.
     """
@@ -30,7 +37,16 @@ def check_balance(connector: Instance) -> None:
         raise Diagnostic("R077", f"the connector {name} has streams and {flows} flows", span, hint)
     if flows != potentials:
         hint = "declare one flow for each potential; or inputs and outputs"
-        raise Diagnostic("R077", f"the connector {name} has {flows} flows and {potentials} potentials", span, hint)
+        message = f"the connector {name} has {flows} flows and {potentials} potentials"
+        connector.context.table(Uneven).append(connector)
+        _note(Diagnostic("R077", message, span, hint, severity=severity), connector.context)
+
+
+def _note(finding: Diagnostic, context: Context) -> None:
+    if finding.severity == "error":
+        raise finding
+    if not any((w.code, w.span) == (finding.code, finding.span) for w in context.warnings):
+        context.warnings.append(finding)
 
 
 def _is_potential(leaf: Leaf) -> bool:

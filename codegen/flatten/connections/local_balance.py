@@ -13,6 +13,7 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.instance import Instance
 from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.classes.types import EXTERNAL
+from lacuna.codegen.flatten.connections.balance import Uneven
 from lacuna.codegen.flatten.connections.connection_sets import ConnectionSets
 from lacuna.codegen.flatten.equations.equations import Collected
 from lacuna.codegen.flatten.names.context import Context
@@ -28,8 +29,8 @@ def check_components(
     another question, which its structure answers. An input of a component may be given by an equation of the
     model around it, as people write it, though 4.8 wants a binding: it is an unknown of that model.
 
-    Not judged are models with expandable or overdetermined connectors and those that use outer components: what holds
-    there is decided by connections elsewhere.
+    Not judged are models with expandable, overdetermined or uneven connectors and those that use outer components: what
+    holds there is decided by connections elsewhere.
     """
     if body.branches:
         return
@@ -37,7 +38,8 @@ def check_components(
     for leaf in leaves:
         if not leaf.is_structural and leaf.primitive not in ("String", EXTERNAL):
             count.add(leaf)
-    open_ended = {id(_owner(bus)) for bus in buses} | {id(_owner(bus).parent) for bus in buses}
+    owners = [_owner(connector) for connector in (*buses, *context.table(Uneven))]
+    open_ended = {id(owner) for owner in owners} | {id(owner.parent) for owner in owners}
     refused: dict[tuple[object, int], list[Instance]] = {}  # by class and by what is too many or too few
     for instance in count.instances.values():
         if instance.parent is not None and id(instance) not in open_ended and not _uses_outer(instance):
@@ -128,6 +130,7 @@ def _unbalanced(instances: list[Instance], count: _Count, severity: str) -> Diag
     if unknowns > equations:
         hint += "; what the model around says of it is declared as an input there: input Real x"
     error = Diagnostic("R078", message, (cls.origin or cls).span, hint, severity=severity)
-    more = f" (and so are {len(instances) - 1} more)" if len(instances) > 1 else ""
+    others = len(instances) - 1
+    more = f" (and so {'are' if others > 1 else 'is'} {others} more)" if others else ""
     error.notes.append((instance.span, f"as {instance.name} is declared here{more}"))
     return error
