@@ -54,6 +54,7 @@ class Equation:
     origin: str = ""  # path of the component it belongs to, "" for the model itself
     text: str = ""  # as written, for comments and messages
     start: tuple[Expr, Expr] | None = None  # both sides at the start, where homotopy makes them others
+    branches: tuple[tuple[Expr, Equation], ...] = ()  # of an if-equation, as written: for the check of units alone
 
 
 @dataclass

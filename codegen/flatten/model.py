@@ -42,7 +42,7 @@ from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.symbolic.rewrite import assigned, expressions, without_marks
 from lacuna.codegen.syntax import ast
-from lacuna.codegen.units.check import check_units, drop_unread
+from lacuna.codegen.units.check import check_units, drop_unread, without_branches
 
 
 def flatten(
@@ -107,6 +107,7 @@ def _check_units(model: flat.FlatModel, context: Context, mode: str) -> flat.Fla
     if mode != "off":
         _note_findings(model, context, mode)
     drop_unread(checked)
+    without_branches(checked)
     return checked
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 
@@ -58,6 +58,19 @@ def drop_unread(model: flat.FlatModel) -> None:
             v.unit = ""
 
 
+def _as_written(equations: Iterable[flat.Equation]) -> Iterator[flat.Equation]:
+    """Those of the branches of an if-equation, each of which has units of its own (8.3.4), behind it."""
+    for e in equations:
+        yield e
+        yield from _as_written(branch for _, branch in e.branches)
+
+
+def without_branches(model: flat.FlatModel) -> None:
+    """Nothing but the check of units looks at them."""
+    for e in (*model.equations, *model.initial_equations):
+        e.branches = ()
+
+
 class _Check:
     def __init__(
         self,
@@ -97,7 +110,7 @@ class _Check:
         self._take_of_inputs(arguments)
         self._infer_unknown()
         inference = self._inference()
-        for e in (*self.model.equations, *self.model.initial_equations):
+        for e in _as_written((*self.model.equations, *self.model.initial_equations)):
             self._equation(inference, e)
         for v in self.model.variables.values():
             self._variable(inference, v)
@@ -140,7 +153,10 @@ class _Check:
             whole = f"{to_text(e.lhs)} = {to_text(e.rhs)}"
             return whole if len(whole) <= 160 else e.text
 
-        self._guarded(e.span, lambda: self._sides(inference, e.lhs, e.rhs), text)
+        for condition, _ in e.branches:
+            self._guarded(e.span, lambda c=condition: inference.of(c))
+        if not e.branches:
+            self._guarded(e.span, lambda: self._sides(inference, e.lhs, e.rhs), text)
 
     @staticmethod
     def _sides(inference: UnitInference, lhs: Expr, rhs: Expr) -> None:
@@ -200,7 +216,8 @@ class _Check:
         equations without a number that may have a unit itself: what is inferred from the others is `soft`."""
         if UNKNOWN not in self.units.values():
             return
-        pending = [e for e in self.model.equations if self._has_unknown(e.lhs) or self._has_unknown(e.rhs)]
+        written = _as_written(self.model.equations)
+        pending = [e for e in written if not e.branches and (self._has_unknown(e.lhs) or self._has_unknown(e.rhs))]
         bindings = [(v.name, v.binding) for v in self.model.variables.values() if v.binding is not None]
         pairs = [(e.lhs, e.rhs) for e in pending]
         pairs += [(var(n), b) for n, b in bindings if self.units[n] == UNKNOWN and b.op != "const"]

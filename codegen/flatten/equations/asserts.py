@@ -24,15 +24,22 @@ def lower_assert(call: ast.Call, scope: Scope) -> flat.Assert:
         raise Diagnostic("R050", "assert needs a condition and a message", call.span, hint)
     condition = lower_scalar(arguments["condition"], scope, BOOLEAN)
     level = _level(arguments["level"], scope) if "level" in arguments else "error"
-    message = ""
+    message: str | None = ""
     if condition is not TRUE or isinstance(arguments["message"], ast.Literal):  # else nobody reads it (8.3.7)
-        message = lower(arguments["message"], replace(scope, message=True, conditional=True))
-    if isinstance(message, ChosenText):
-        message = " or ".join(dict.fromkeys(text for _, text in message.alternatives))
-    if not isinstance(message, str):
+        message = lower_message(arguments["message"], scope)
+    if message is None:
         hint = 'assert(x > 0, "text", AssertionLevel.warning)'
         raise Diagnostic("R020", "the message of assert is not a String", call.span, hint)
     return flat.Assert(condition, message, call.span, level, origin_of(scope))
+
+
+def lower_message(written: ast.Expression, scope: Scope) -> str | None:
+    """The text of an assert or a terminate: variables in it by their names, all texts that it may be. None where it is
+    no String."""
+    message = lower(written, replace(scope, message=True, conditional=True))
+    if isinstance(message, ChosenText):
+        return " or ".join(dict.fromkeys(text for _, text in message.alternatives))
+    return message if isinstance(message, str) else None
 
 
 def require_lasting(checks: Iterable[flat.Assert]) -> None:

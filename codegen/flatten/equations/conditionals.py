@@ -138,7 +138,8 @@ def _merge_equations(conditions: list[Expr], branches: list[list[flat.Equation]]
     for row in zip(*branches, strict=True):
         lhs, rhs = (choose(conditions, [getattr(e, side) for e in row], row[0].span) for side in ("lhs", "rhs"))
         text = " | ".join(dict.fromkeys(e.text for e in row))
-        result.append(flat.Equation(lhs, rhs, row[0].span, row[0].origin, text))
+        branches = tuple(zip(conditions, row, strict=True))
+        result.append(flat.Equation(lhs, rhs, row[0].span, row[0].origin, text, branches=branches))
     return result
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.equations.asserts import lower_assert
+from lacuna.codegen.flatten.equations.asserts import lower_assert, lower_message
 from lacuna.codegen.flatten.equations.effects import effect
 from lacuna.codegen.flatten.equations.equations import check_target, check_types, equalities, origin_of, unroll
 from lacuna.codegen.flatten.expressions.constants import is_known, variability
@@ -131,8 +131,8 @@ def procedure(item: ast.Procedure, scope: Scope) -> list[flat.Statement]:
     if name == "assert":
         return [lower_assert(call, scope)]
     if name == "terminate":
-        message = lower(call.args[0], scope) if len(call.args) == 1 else None
-        if not isinstance(message, str):
+        message = lower_message(call.args[0], scope) if len(call.args) == 1 else None
+        if message is None:
             raise Diagnostic("R050", "terminate takes one message", item.span, 'terminate("why")')
         return [flat.Terminate(message, item.span)]
     if name == "reinit":
