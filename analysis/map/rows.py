@@ -82,18 +82,23 @@ class RowStore:
         return self._folder / f"{hashlib.sha256(f'{self.key} {severity!r}'.encode()).hexdigest()[:32]}.npz"
 
     def load(self, severity: float) -> Row | None:
-        """The row, or None where it was never computed (or its file is damaged: then it is computed again)."""
+        """The row, or None where it was never computed (or its file is damaged, or of another row: then it is computed
+        again)."""
+        path = self._path(severity)
         try:
-            with np.load(self._path(severity), allow_pickle=False) as data:
-                fields = json.loads(str(data["fields"]))
-                return Row(**fields, traces={name: data[name] for name in data.files if name != "fields"})
-        except (OSError, ValueError, KeyError, TypeError, zipfile.BadZipFile):
+            with np.load(path, allow_pickle=False) as data:
+                text = str(data["fields"])
+                traces = {name: data[name] for name in data.files if name not in ("fields", "digest")}
+                intact = str(data["digest"]) == _digest(path.stem, text, traces)
+                return Row(**json.loads(text), traces=traces) if intact else None
+        except (OSError, EOFError, ValueError, KeyError, TypeError, zipfile.BadZipFile):
             return None
 
     def save(self, row: Row) -> None:
-        fields = {name: value for name, value in asdict(row).items() if name != "traces"}
-        with whole_file(self._path(row.severity)) as partial:
-            np.savez(partial, fields=json.dumps(fields), **row.traces)
+        text = json.dumps({name: value for name, value in asdict(row).items() if name != "traces"})
+        path = self._path(row.severity)
+        with whole_file(path) as partial:
+            np.savez(partial, fields=text, digest=_digest(path.stem, text, row.traces), **row.traces)
 
     def prune(self, severities: list[float]) -> None:
         """Remove the rows of other models and settings, and what an interrupted run left; nothing that is not ours."""
@@ -101,3 +106,11 @@ class RowStore:
         for path in self._folder.glob("*"):
             if path not in keep and _OURS.match(path.name):
                 path.unlink(missing_ok=True)
+
+
+def _digest(name: str, fields: str, traces: dict[str, np.ndarray]) -> str:
+    """Of what a row's file holds and what it is called."""
+    found = hashlib.sha256(f"{name} {fields}".encode())
+    for trace, values in sorted(traces.items()):
+        found.update(trace.encode() + values.tobytes())
+    return found.hexdigest()
