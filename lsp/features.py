@@ -18,6 +18,7 @@ from lacuna.lsp.document import Document, Name, parsed
 from lacuna.lsp.resolve import Declared, elements, follow, resolve, type_of
 from lacuna.units import symbols
 
+Place = tuple[Path, Span]
 _MEANT = re.compile(r"did you mean (.+)\?")
 
 
@@ -174,7 +175,7 @@ def _equations(model: FlatModel, name: str) -> list[str]:
     return [f"{e.lhs} = {e.rhs}" for e in alone[:3]]
 
 
-def occurrences(workspace: Workspace, path: Path, line: int, character: int) -> list[tuple[Path, Span]]:
+def occurrences(workspace: Workspace, path: Path, line: int, character: int) -> list[Place]:
     """Every place where what is at the cursor is named, its declaration among them."""
     view = workspace.view(path)
     wanted = declaration(view, line, character)
@@ -186,7 +187,7 @@ def occurrences(workspace: Workspace, path: Path, line: int, character: int) -> 
             text = workspace.text(file)
         except (OSError, UnicodeDecodeError):
             continue
-        if re.search(rf"\b{re.escape(name)}\b", text):
+        if name in text:
             found += [(file, span) for span in _named(_reading(workspace, file), name, wanted.span)]
     return found
 

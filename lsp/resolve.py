@@ -76,7 +76,31 @@ def resolve(library: Library, document: Document, name: Name) -> Declared | None
     modified = _modified(library, document, cls, name)
     if modified is not None:
         return element(library, modified, name.parts[-1]) if len(name.parts) == 1 else None
+    called = _called(document, name)
+    if called is not None:
+        return _argument(library, cls, called, name)
     return follow(library, cls, name)
+
+
+def _called(document: Document, name: Name) -> Name | None:
+    """What is called where this token names an argument, `f(k = 2)`; None where it is no such token."""
+    kinds, k = document.tokens.kinds, name.token
+    if len(name.parts) > 1 or kinds[k + 1] != "=" or kinds[k - 1] not in ("(", ","):
+        return None
+    depth = 0
+    while k > 0:
+        k -= 1
+        depth += {")": 1, "]": 1, "}": 1, "(": -1, "[": -1, "{": -1}.get(kinds[k], 0)
+        if depth < 0:
+            return document.name_of(k - 1) if kinds[k] == "(" and k and kinds[k - 1] == "id" else None
+    return None
+
+
+def _argument(library: Library, cls: ast.Class, called: Name, name: Name) -> Declared | None:
+    """The input of a function, or the element of a record, that an argument names (12.4.1)."""
+    found = follow(library, cls, called)
+    inner = type_of(library, found) if found else None
+    return element(library, inner, name.parts[0]) if inner is not None else None
 
 
 def follow(library: Library, cls: ast.Class, name: Name) -> Declared | None:

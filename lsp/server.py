@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 import gc
 from pathlib import Path
 from urllib.parse import unquote, urlparse
@@ -14,11 +15,14 @@ from pygls.lsp.server import LanguageServer
 
 import lacuna
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.syntax.lexer import is_name
+from lacuna.codegen.syntax import ast
 from lacuna.lsp import features
 from lacuna.lsp.features import Workspace
 from lacuna.lsp.format import format_text
+from lacuna.lsp.positions import Positions
 from lacuna.lsp.protocol import AnsweringProtocol
+from lacuna.lsp.rename import Refused
+from lacuna.lsp.rename import rename as rename_at
 
 _SEVERITY = {"error": lsp.DiagnosticSeverity.Error, "warning": lsp.DiagnosticSeverity.Warning}
 
@@ -27,19 +31,13 @@ def path_of(uri: str) -> Path:
     return Path(unquote(urlparse(uri).path)).resolve()
 
 
-def _range(span: Span) -> lsp.Range:
-    line, column = span.line - 1, span.column - 1
-    return lsp.Range(lsp.Position(line, column), lsp.Position(line, column + max(1, span.length)))
-
-
 def make_server(search_path: list[str]) -> LanguageServer:
     """A server over classes looked up in `search_path`."""
     whole = lsp.TextDocumentSyncKind.Full
     server = LanguageServer("lacuna", lacuna.__version__, text_document_sync_kind=whole, protocol_cls=AnsweringProtocol)
     workspace = Workspace(search_path)
-    _documents(server, workspace)
-    _questions(server, workspace)
-    _edits(server, workspace)
+    for features_of in (_documents, _questions, _edits):
+        features_of(server, workspace, Positions(workspace.text))
     return server
 
 
@@ -53,12 +51,12 @@ def _answering() -> Iterator[None]:
         gc.enable()
 
 
-def _documents(server: LanguageServer, workspace: Workspace) -> None:
+def _documents(server: LanguageServer, workspace: Workspace, positions: Positions) -> None:
     def publish(uri: str) -> None:
         path = path_of(uri)
         with _answering():
             found = features.in_file(workspace.view(path).findings, path)
-            diagnostics = [_diagnostic(finding, span) for finding, span in found]
+            diagnostics = [_diagnostic(finding, span, positions) for finding, span in found]
             server.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, diagnostics))
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_OPEN)
@@ -79,72 +77,75 @@ def _documents(server: LanguageServer, workspace: Workspace) -> None:
         workspace.change(path_of(params.text_document.uri), None)
 
 
-def _diagnostic(finding: Diagnostic, span: Span) -> lsp.Diagnostic:
+def _diagnostic(finding: Diagnostic, span: Span, positions: Positions) -> lsp.Diagnostic:
     text = finding.message + (f"\nhint: {finding.hint}" if finding.hint else "")
-    related = [
-        lsp.DiagnosticRelatedInformation(lsp.Location(Path(place.file).resolve().as_uri(), _range(place)), remark)
-        for place, remark in finding.notes if place.file
-    ]  # fmt: skip
+    notes = [(p, Path(p.file).resolve().as_uri(), remark) for p, remark in finding.notes if p.file]
+    related = [lsp.DiagnosticRelatedInformation(lsp.Location(at, positions.range(p)), said) for p, at, said in notes]
     return lsp.Diagnostic(
-        _range(span), text, severity=_SEVERITY[finding.severity], code=finding.code, source="lacuna",
+        positions.range(span), text, severity=_SEVERITY[finding.severity], code=finding.code, source="lacuna",
         related_information=related, data={"fixes": features.fixes(finding)},
     )  # fmt: skip
 
 
-def _questions(server: LanguageServer, workspace: Workspace) -> None:
+def _questions(server: LanguageServer, workspace: Workspace, positions: Positions) -> None:
+    def asked(params: lsp.TextDocumentPositionParams) -> tuple[Path, int, int]:
+        path = path_of(params.text_document.uri)
+        return path, *positions.place(path, params.position)
+
     @server.feature(lsp.TEXT_DOCUMENT_HOVER)
     def hover(params: lsp.HoverParams) -> lsp.Hover | None:
-        view = workspace.view(path_of(params.text_document.uri))
-        text = features.hover(view, params.position.line, params.position.character)
+        path, line, character = asked(params)
+        text = features.hover(workspace.view(path), line, character)
         return lsp.Hover(lsp.MarkupContent(lsp.MarkupKind.Markdown, text)) if text else None
 
     @server.feature(lsp.TEXT_DOCUMENT_DEFINITION)
     def definition(params: lsp.DefinitionParams) -> lsp.Location | None:
-        view = workspace.view(path_of(params.text_document.uri))
-        found = features.declaration(view, params.position.line, params.position.character)
+        path, line, character = asked(params)
+        found = features.declaration(workspace.view(path), line, character)
         if found is None or not found.span.file:
             return None
-        return lsp.Location(Path(found.span.file).resolve().as_uri(), _range(found.span))
+        return lsp.Location(Path(found.span.file).resolve().as_uri(), positions.range(found.span))
 
     @server.feature(lsp.TEXT_DOCUMENT_REFERENCES)
     def references(params: lsp.ReferenceParams) -> list[lsp.Location]:
-        at = params.position
-        found = features.occurrences(workspace, path_of(params.text_document.uri), at.line, at.character)
-        return [lsp.Location(path.as_uri(), _range(span)) for path, span in found]
+        found = features.occurrences(workspace, *asked(params))
+        return [lsp.Location(path.as_uri(), positions.range(replace(span, file=str(path)))) for path, span in found]
 
     @server.feature(lsp.TEXT_DOCUMENT_COMPLETION, lsp.CompletionOptions(trigger_characters=[".", '"']))
     def complete(params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
-        at = params.position
-        found = features.completions(workspace, path_of(params.text_document.uri), at.line, at.character)
+        found = features.completions(workspace, *asked(params))
         return [lsp.CompletionItem(name, detail=detail) for name, detail in found.items()]
 
     @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
     def symbols(params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
         document = workspace.view(path_of(params.text_document.uri)).document
-        return [_symbol(entry) for entry in features.outline(document).values()] if document else []
+        return [_symbol(entry, positions) for entry in features.outline(document).values()] if document else []
 
 
-def _symbol(entry: dict) -> lsp.DocumentSymbol:
+def _symbol(entry: dict, positions: Positions) -> lsp.DocumentSymbol:
+    def one(element: ast.Class | ast.Component, kind: lsp.SymbolKind, detail: str) -> lsp.DocumentSymbol:
+        place = positions.range(element.span)
+        return lsp.DocumentSymbol(element.name, kind, place, place, detail=detail)
+
     cls = entry["class"]
-    inner = [_symbol(e) for e in entry["classes"].values()]
-    inner += [
-        lsp.DocumentSymbol(c.name, lsp.SymbolKind.Variable, _range(c.span), _range(c.span), detail=str(c.type))
-        for c in entry["components"]
-    ]
-    kind = lsp.SymbolKind.Package if cls.kind == "package" else lsp.SymbolKind.Class
-    return lsp.DocumentSymbol(cls.name, kind, _range(cls.span), _range(cls.span), detail=cls.kind, children=inner)
+    symbol = one(cls, lsp.SymbolKind.Package if cls.kind == "package" else lsp.SymbolKind.Class, cls.kind)
+    inner = [_symbol(e, positions) for e in entry["classes"].values()]
+    symbol.children = [*inner, *(one(c, lsp.SymbolKind.Variable, str(c.type)) for c in entry["components"])]
+    return symbol
 
 
-def _edits(server: LanguageServer, workspace: Workspace) -> None:
+def _edits(server: LanguageServer, workspace: Workspace, positions: Positions) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_RENAME)
     def rename(params: lsp.RenameParams) -> lsp.WorkspaceEdit:
-        if not is_name(params.new_name):
-            wanted = "letters, digits and _, or in 'quotes', and no keyword"
-            raise JsonRpcInvalidParams(f"{params.new_name!r} is not a name: {wanted}")
-        at = params.position
+        path = path_of(params.text_document.uri)
         changes: dict[str, list[lsp.TextEdit]] = {}
-        for path, span in features.occurrences(workspace, path_of(params.text_document.uri), at.line, at.character):
-            changes.setdefault(path.as_uri(), []).append(lsp.TextEdit(_range(span), params.new_name))
+        try:
+            places = rename_at(workspace, path, *positions.place(path, params.position), params.new_name)
+        except Refused as reason:
+            raise JsonRpcInvalidParams(str(reason)) from None
+        for file, span in places:
+            edit = lsp.TextEdit(positions.range(replace(span, file=str(file))), params.new_name)
+            changes.setdefault(file.as_uri(), []).append(edit)
         return lsp.WorkspaceEdit(changes=changes)
 
     @server.feature(lsp.TEXT_DOCUMENT_FORMATTING)
@@ -161,19 +162,18 @@ def _edits(server: LanguageServer, workspace: Workspace) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_CODE_ACTION)
     def actions(params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
         uri = params.text_document.uri
-        lines = workspace.text(path_of(uri)).split("\n")
         return [
-            _replace(uri, lines[diagnostic.range.start.line], diagnostic, name)
+            _replace(uri, diagnostic, name, positions)
             for diagnostic in params.context.diagnostics
-            if diagnostic.range.start.line < len(lines)  # else of an older text
+            if positions.marked(path_of(uri), diagnostic.range)  # else of an older text
             for name in (diagnostic.data or {}).get("fixes", [])
         ]
 
 
-def _replace(uri: str, line: str, diagnostic: lsp.Diagnostic, name: str) -> lsp.CodeAction:
+def _replace(uri: str, diagnostic: lsp.Diagnostic, name: str, positions: Positions) -> lsp.CodeAction:
     """The name that was not found, replaced by a known one: the last part of what is marked."""
     at = diagnostic.range
-    marked = line[at.start.character : at.end.character]
+    marked = positions.marked(path_of(uri), at)
     start = at.start.character + (marked.rfind(".") + 1 if "." in marked and "." not in name else 0)
     place = lsp.Range(lsp.Position(at.start.line, start), at.end)
     return lsp.CodeAction(

@@ -17,7 +17,7 @@ from lacuna.codegen.structure.causal import Assignment, Division, Step, causalis
 from lacuna.codegen.structure.sorting.matching import Matching
 from lacuna.codegen.structure.sorting.tearing import Tearing
 from lacuna.codegen.structure.system import Row, System
-from lacuna.codegen.symbolic.expr import Expr, const, neg, sub, var
+from lacuna.codegen.symbolic.expr import Expr, const, neg, pre, sub, var
 from lacuna.codegen.symbolic.leaves import leaves
 
 
@@ -106,9 +106,11 @@ def _fixed(system: System) -> list[str]:
 
 
 def _start_row(system: System, name: str) -> Row:
+    """What a variable begins with: of a state what the caller gives it, else what is declared; it is there already."""
     v = system.model.variables[name]
-    start = v.start if v.start is not None else const(0.0)
-    return Row(var(name), start, flat.Equation(var(name), start, v.span, "", f"start of {name}"))
+    declared = v.start if v.start is not None else const(0.0)
+    start = pre(var(name)) if name in system.states else declared
+    return Row(var(name), start, flat.Equation(var(name), declared, v.span, "", f"start of {name}"))
 
 
 def _assume_starts(

@@ -148,19 +148,27 @@ static rt_status check_open(rt_session *s) {
                  s->t, names);
 }
 
+static void give_states(rt_session *s) {
+  for (int k = 0; k < s->n_initial; k++)
+    s->data.x[s->initial_index[k]] = s->initial_value[k];
+}
+
 /* Initial equations, relations and discrete equations with initial() true, until they agree. States given by the caller
- * replace what the initial equations say. */
+ * are what others follow from; they replace what initial equations say of them. */
 static rt_status solve_initial_equations(rt_session *s) {
   mdl_data *m = &s->data;
+  const size_t x_size = (size_t)s->d->n_x * sizeof *m->x;
   char names[400] = "";
+  give_states(s);
+  memcpy(s->x_start, m->x, x_size);
   for (int i = 0; i < MAX_ITERATIONS; i++) {
+    memcpy(m->x, s->x_start, x_size);
     rt_inputs_at(s, s->t);
     if (solve_initial_system(s)) return fail_initialisation(s);
     if (!s->n_initial && check_open(s)) return s->failure.status;
     if (rt_delays_start(s) || rt_transports_start(s)) return fail_initialisation(s);
     if (rt_tangent_initial(s, true)) return s->failure.status;
-    for (int k = 0; k < s->n_initial; k++)
-      m->x[s->initial_index[k]] = s->initial_value[k];
+    give_states(s);
     if (rt_evaluate(s)) {
       mdl_failure failure = m->failure;
       if (settles_without_values(s)) continue;

@@ -169,22 +169,27 @@ static void override_states(rt_session *s) {
     memset(rt_rows(f->at.x) + s->initial_index[i] * f->columns, 0, (size_t)f->columns * sizeof(double));
   for (int k = 0; k < f->n; k++) {
     const mdl_variable *v = &s->d->variables[f->variables[k]];
-    if (v->storage != MDL_STATE) continue;
-    for (int i = 0; i < s->d->n_x; i++)
-      rt_rows(f->at.x)[i * f->columns + k] = i == v->index ? v->sign : 0;
+    if (v->storage == MDL_STATE) rt_rows(f->at.x)[v->index * f->columns + k] = v->sign;
   }
+}
+
+/* The states that follow from what they begin with. */
+static rt_status differentiate_initial_system(rt_session *s) {
+  mdl_data *m = &s->data;
+  rt_sensitivities *f = s->sensitivities;
+  memset(f->at.x, 0, (size_t)(s->d->n_x * f->columns) * sizeof(double));
+  if (s->d->tangents->starts(m, &f->at)) return rt_fail_model(s, s->t, "differentiating start values");
+  override_states(s);
+  if (s->d->tangents->initial_system(m, s->t, m->x, m->xdot, m->v, &f->at))
+    return rt_fail_model(s, s->t, "differentiating the initial equations");
+  return RT_OK;
 }
 
 /* During initialisation: the states, where the initial equations have just been `solved`; then what follows from them.
  */
 rt_status rt_tangent_initial(rt_session *s, bool solved) {
-  mdl_data *m = &s->data;
-  rt_sensitivities *f = s->sensitivities;
-  if (!f) return RT_OK;
-  if (solved)
-    return s->d->tangents->initial_system(m, s->t, m->x, m->xdot, m->v, &f->at)
-               ? rt_fail_model(s, s->t, "differentiating the initial equations")
-               : RT_OK;
+  if (!s->sensitivities) return RT_OK;
+  if (solved) return differentiate_initial_system(s);
   override_states(s);
   return rt_tangent_evaluate(s);
 }

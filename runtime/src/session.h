@@ -134,6 +134,7 @@ struct rt_session {
   double *x_trial, *xdot_trial, *v_trial;
   double *x_before, *xdot_before, *v_before, *v_agreed; /* v_agreed: v as it follows what an event sets (events.c) */
   double *d_before, *d_after;             /* discrete variables before an event; and aside while it is differentiated */
+  double *x_start;                        /* what the states begin with: declared, or given by the caller */
   double *x_swept, *d_swept;              /* states after a sweep of an event, discrete variables before it */
   unsigned char *rel_swept, *when_before; /* relations before a sweep, when conditions before its pass */
   unsigned char *rel_before, *rel_trial;  /* [n_rel] */

@@ -156,3 +156,30 @@ def test_a_rejected_step_leaves_no_root_behind(tmp_path: Path, solver: str) -> N
     assert result.complete, result.failure
     assert result["y"][-1] == pytest.approx(np.exp(-np.sqrt(np.pi)), rel=1e-4)
     assert result["y"] == pytest.approx(result["x"], rel=1e-9)
+
+
+DIODES = """model Diodes "A bridge: a step takes it hundreds of thermal voltages away"
+  parameter Real Is = 1e-12, Vt = 0.026, R = 100, RL = 1000, U = 12;
+  Real u, a, b, p, d[4], i[4], is;
+equation
+  u = if time < 0.5 then 0 else U;
+  u - a + b = R*is;
+  d = {a - p, b - p, -a, -b};
+  for k in 1:4 loop
+    i[k] = Is*(exp(d[k]/Vt) - 1) + 1e-9*d[k];
+  end for;
+  is = i[1] - i[3];
+  is + i[2] - i[4] = 0;
+  i[1] + i[2] = p/RL;
+end Diodes;
+"""
+
+
+@pytest.mark.parametrize("volts", [2.0, -12.0, 12.0, 50.0])
+def test_a_bridge_of_exponential_diodes_follows_a_step(tmp_path: Path, volts: float) -> None:
+    """Two of them conduct, in series with R and RL: |U| = (R + RL) i + 2 Vt log(i/Is), what the others leak aside."""
+    result = simulated(tmp_path, DIODES, stop=1.0, parameters={"U": volts})
+    assert result.complete, result.failure
+    current = float(result["is"][-1]) * np.sign(volts)
+    drop = 2 * 0.026 * np.log(current / 1e-12)
+    assert (abs(volts) - drop) / 1100 == pytest.approx(current, rel=1e-5)

@@ -1,7 +1,8 @@
 """The solver that a generated model carries along for its nonlinear blocks, as C.
 
-Newton's method with a damped step. Where it gets nowhere from the start values (the residual has a valley that is no
-root, a limited gain throws each step to the other limit, the Jacobian is singular), a second way is tried:
+Newton's method with a damped step, as long as a step halves the residual, and fifty steps more: down the exponential
+of a diode each step is a thermal voltage. Where it gets nowhere from the start values (the residual has a valley that
+is no root, a limited gain throws each step to the other limit, the Jacobian is singular), a second way is tried:
 
 - one unknown: the interval around the start value is doubled until the residual changes its sign, on the nearer side
   first, and the root is bracketed by Newton's steps and bisection. A continuous residual that changes its sign has a
@@ -116,8 +117,10 @@ static void mdl_newton_follow(mdl_newton *s, int arrived) {
 static int mdl_newton_look(mdl_newton *s, double *r) {
   double norm = 0.0;
   for (int i = 0; i < s->n; ++i) norm += r[i] * r[i];
-  /* Zero is a root even where the Jacobian is singular; but far away from the start it may be an underflow. */
-  if (norm == 0.0 && s->phase != MDL_SEARCH) s->phase = MDL_SOLVED;
+  /* Zero is a root even where the Jacobian is singular; but far away from the start it may be an underflow, and so it
+   * is behind what has fallen nearly as far. */
+  const int fell = s->phase == MDL_DAMPED && s->iterations > 0 && s->norm < 1e-290;
+  if (norm == 0.0 && s->phase != MDL_SEARCH && !fell) s->phase = MDL_SOLVED;
   if (++s->looks > MDL_LOOKS) s->phase = MDL_FAILED;
   switch (s->phase) {
   case MDL_DAMPED:
@@ -126,6 +129,8 @@ static int mdl_newton_look(mdl_newton *s, double *r) {
       for (int i = 0; i < s->n; ++i) s->x[i] += s->work[s->n + i] *= 0.5;
       return 1;
     }
+    /* A step that halves the residual is worth another. */
+    if (s->iterations > 0 && norm <= 0.25 * s->norm && !fell) --s->iterations;
     s->halvings = 0;
     s->norm = norm;
     return 0;

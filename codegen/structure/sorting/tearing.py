@@ -4,7 +4,8 @@ H. Elmqvist, M. Otter, Methods for tearing systems of equations in object-orient
 An equation is used for an unknown only where it is affine in it with a coefficient that is safely not zero.
 
 In the residual form derivatives are known, but only as differences of the integrator: what is computed from them
-must not go into a nonlinear function (the exponential of a diode, say), which would amplify their error.
+must not go into a nonlinear function (the exponential of a diode, say), which would amplify their error. Nor must what
+an exponential gives go into another one: of that no machine number holds the values nearby, and Newton's method crawls.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from lacuna.codegen.structure.system import DeclaredValues, Row
 from lacuna.codegen.symbolic.affine import UNSAFE, division_rank, isolate, nonlinear
 from lacuna.codegen.symbolic.differentiate import partial
 from lacuna.codegen.symbolic.expr import FALSE, TRUE, Expr, div, substitute, walk
+from lacuna.codegen.symbolic.leaves import leaves
 
 AMPLIFICATION = 1e5  # of rounding, 1e-16, tolerated along a chain: it stays far below the tolerances of a run
 MODES = 4  # conditions of one slope whose combinations are all looked at
@@ -50,6 +52,7 @@ class Tearing:
         self._values, self._switching = values, switching
         self._explicit: dict[tuple[Row, Expr], tuple[int, Expr | None]] = {}
         self._steepest: dict[Expr, float | None] = {}
+        self._exponents: dict[Row, frozenset[Expr]] = {}
 
     def explicit(self, row: Row, unknown: Expr) -> tuple[int, Expr | None]:
         """(rank, value) of `unknown` from `row`; rank UNSAFE and None where it may not be used."""
@@ -65,6 +68,13 @@ class Tearing:
     def steady(self) -> Tearing:
         """The same without divisors that differ from mode to mode."""
         return Tearing(self._values, switching=False)
+
+    def exponents(self, row: Row) -> frozenset[Expr]:
+        """What stands under an exponential in `row`."""
+        if row not in self._exponents:
+            under = [leaves(e) for n in (*walk(row.lhs), *walk(row.rhs)) if (e := _exponent(n)) is not None]
+            self._exponents[row] = frozenset().union(*under)
+        return self._exponents[row]
 
     def is_linear(self, row: Row, unknown: Expr) -> bool:
         return unknown not in nonlinear(row.lhs) and unknown not in nonlinear(row.rhs)
@@ -118,6 +128,13 @@ class Tearing:
         return largest
 
 
+def _exponent(n: Expr) -> Expr | None:
+    """What is in the exponent of a node, where there is any."""
+    if n.op == "call" and n.value in ("exp", "sinh", "cosh"):
+        return n.args[0]
+    return n.args[1] if n.op == "^" and n.args[1].op != "const" else None
+
+
 class _Order:
     """One run of tearing. Two heaps hold what may come next, so that a step costs what its row and unknown hold:
     rows with one unknown left, constants before parameters as divisors, values before derivatives; and unknowns by
@@ -132,6 +149,7 @@ class _Order:
         values_first: bool,
     ):
         self._tearing, self._rows, self._rough = tearing, rows, set(rough)
+        self._steep: set[Expr] = set()
         self._values_first = values_first
         self._open = dict.fromkeys(unknowns)
         self._missing = {row: {u for u in row.leaves if u in self._open} for row in rows}
@@ -165,6 +183,8 @@ class _Order:
                 self._use(row)
                 if not self._rough.isdisjoint(row.leaves):
                     self._rough.add(unknown)
+                if self._is_steep(row, unknown):
+                    self._steep.add(unknown)
             self._settle(unknown)
         torn.residuals = list(self._unused)
         return torn
@@ -204,11 +224,17 @@ class _Order:
         return None
 
     def _spoils(self, row: Row, unknown: Expr) -> bool:
-        """Whether `row` would carry rough values through `unknown` into a nonlinear equation."""
-        if self._rough.isdisjoint(row.leaves):
-            return False
-        others = (other for other in self._users[unknown] if other in self._unused and other is not row)
-        return not all(self._tearing.is_linear(other, unknown) for other in others)
+        """Whether `row` would carry rough values through `unknown` into a nonlinear equation, or those of an
+        exponential into another one."""
+        others = [other for other in self._users[unknown] if other in self._unused and other is not row]
+        if not self._rough.isdisjoint(row.leaves) and not all(self._tearing.is_linear(o, unknown) for o in others):
+            return True
+        return self._is_steep(row, unknown) and any(unknown in self._tearing.exponents(o) for o in others)
+
+    def _is_steep(self, row: Row, unknown: Expr) -> bool:
+        """Whether `row` gives `unknown` by an exponential of what is unknown, or by what has such a value."""
+        own = self._tearing.exponents(row)
+        return not self._steep.isdisjoint(row.leaves) or any(n in self._uses and n is not unknown for n in own)
 
     def _most_used(self) -> Expr:
         """The open unknown that most unused equations have, the first of them; counts in the heap may be old."""

@@ -266,8 +266,10 @@ static void mdl_newton_follow(mdl_newton *s, int arrived) {
 static int mdl_newton_look(mdl_newton *s, double *r) {
   double norm = 0.0;
   for (int i = 0; i < s->n; ++i) norm += r[i] * r[i];
-  /* Zero is a root even where the Jacobian is singular; but far away from the start it may be an underflow. */
-  if (norm == 0.0 && s->phase != MDL_SEARCH) s->phase = MDL_SOLVED;
+  /* Zero is a root even where the Jacobian is singular; but far away from the start it may be an underflow, and so it
+   * is behind what has fallen nearly as far. */
+  const int fell = s->phase == MDL_DAMPED && s->iterations > 0 && s->norm < 1e-290;
+  if (norm == 0.0 && s->phase != MDL_SEARCH && !fell) s->phase = MDL_SOLVED;
   if (++s->looks > MDL_LOOKS) s->phase = MDL_FAILED;
   switch (s->phase) {
   case MDL_DAMPED:
@@ -276,6 +278,8 @@ static int mdl_newton_look(mdl_newton *s, double *r) {
       for (int i = 0; i < s->n; ++i) s->x[i] += s->work[s->n + i] *= 0.5;
       return 1;
     }
+    /* A step that halves the residual is worth another. */
+    if (s->iterations > 0 && norm <= 0.25 * s->norm && !fell) --s->iterations;
     s->halvings = 0;
     s->norm = norm;
     return 0;
@@ -404,8 +408,9 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
 }
 
 static int mdl_initial_system(mdl_data *m, double t) {
+  const double pre_u_C = m->x[0];
   /* Diode.mo:11  start of u_C */
-  const double u_C = 0.0;
+  const double u_C = pre_u_C;
   m->x[0] = u_C;
   return mdl_rhs(m, t, m->x, m->xdot, m->v);
 }

@@ -119,8 +119,9 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
 }
 
 static int mdl_initial_system(mdl_data *m, double t) {
+  const double pre_x_2 = m->x[0];
   /* Sampler.mo:6  start of x */
-  const double x_2 = 0.0;
+  const double x_2 = pre_x_2;
   m->x[0] = x_2;
   return mdl_rhs(m, t, m->x, m->xdot, m->v);
 }

@@ -210,10 +210,12 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
 }
 
 static int mdl_initial_system(mdl_data *m, double t) {
+  const double pre_phi1 = m->x[0];
+  const double pre_w1 = m->x[1];
   /* Shaft.mo:10  start of w1 */
-  const double w1 = 0.0;
+  const double w1 = pre_w1;
   /* Shaft.mo:8  start of phi1 */
-  const double phi1 = 0.0;
+  const double phi1 = pre_phi1;
   m->x[1] = w1;
   m->x[0] = phi1;
   return mdl_rhs(m, t, m->x, m->xdot, m->v);
