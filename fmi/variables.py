@@ -77,7 +77,7 @@ class FmiVariables:
     def _starting(self) -> dict[str, float]:
         """States that simply start at a number: that an importer may set."""
         steps = self._prepared.initial.steps
-        given = {str(s.unknown.value): s.value for s in steps
+        given = {str(s.unknown.value): s.row.source.rhs for s in steps
                  if isinstance(s, Assignment) and s.row.source.text.startswith("start of")}  # fmt: skip
         return {name: float(value.value) for name, value in given.items() if value.op == "const"}
 

@@ -72,11 +72,12 @@ def locator_of(case: Case, amendment: Amendment, fit: Fit) -> Locator | None:
 
 
 def weighed(locator: Locator) -> float:
-    """What an effort at any place explains beside the instruments' own errors, in nats over these alone."""
+    """What an effort at any place explains beside the instruments' own errors, in nats over these alone. It is sought
+    beside those, which may have had to stand for it, and beside none."""
     pieces, worst = thinned_all(locator.pieces, SAMPLES), _worst(locator)
     alone, log = _fitted(pieces, _NOTHING, worst)
-    _, more = _fitted(pieces, _with_effort(locator, pieces, alone.colour), worst)
-    return more - log
+    begun = (_with_effort(locator, pieces, colour) for colour in (alone.colour, _NOTHING.colour))
+    return max(_fitted(pieces, effort, worst)[1] for effort in begun) - log
 
 
 def colour_of(locator: Locator) -> Colour:

@@ -13,6 +13,7 @@ from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws.regression import Regression
 from lacuna.discovery.efforts.laws.terms import counts, groups, saturating
 from lacuna.discovery.efforts.laws.variables import variables
+from lacuna.discovery.efforts.laws.written import written_differences
 from lacuna.discovery.efforts.located import Guided, Locator
 from lacuna.discovery.efforts.places import sites
 from lacuna.discovery.efforts.places.families import is_shared, meant
@@ -30,7 +31,10 @@ def offered_at(locator: Locator, place: Place, guided: Guided) -> tuple[Regressi
     hidden = locator.opened.hidden
     near = re.sub(r"^der\((.*)\)$", r"\1", members[0]) if members else place.location
     seen = [_of_all(a, members) for a in along] if members else along
-    found = variables(seen, near, known, locator.opened.linear.states, answering, lambda n: added(n) or n in hidden)
+    found = variables(
+        seen, near, known, locator.opened.linear.states, answering, lambda n: added(n) or n in hidden,
+        written_differences(locator.opened),
+    )  # fmt: skip
     found, ranges = _ranged(along, found, members)
     if place.only:
         found = [v for v in found if v.name == place.only and not v.minus]

@@ -27,12 +27,14 @@ MOVES = 1e-6  # share of its largest value that a variable must move by
 def variables(
     along: Sequence[Along], location: str, known: Mapping[str, ModelVariable], states: list[str],
     answering: frozenset[str], added: Callable[[str], bool] = lambda name: False,
+    written: frozenset[frozenset[str]] = frozenset(),
 ) -> list[Variable]:  # fmt: skip
     """The variables of a law at `location`, the nearest first; those that follow from another one are left out, and
     those of components that were `added` to the believed model: what is found there may yet be found anew.
 
     `answering` are those that the effort changes at once: they are in the balance that says what the effort is, and a
     sum of them is that balance again. Of them only rates of states serve, where something else multiplies them.
+    `written` are pairs of variables whose difference stands in the model.
     """
     units = {n: v.unit for n, v in known.items()}
     names = [n for n, v in along[0].values.items() if np.ndim(v) == 1 and (n in units or n.startswith("der("))]
@@ -70,7 +72,7 @@ def variables(
             break
     believed = {n: u for n, u in units.items() if not added(n)}
     moving = [n for n in states if n in names and np.ptp(np.concatenate([a.values[n] for a in along])) > 0]
-    kept += _differences(along, kept, moving, believed, location)
+    kept += _differences(along, kept, moving, believed, location, written)
     return [*_with_rates(along, kept, states), *_of_recordings(along, known, added, len(kept))]
 
 
@@ -94,16 +96,22 @@ def _of_recordings(
 
 
 def _differences(
-    along: Sequence[Along], kept: list[Variable], states: list[str], units: Mapping[str, str], location: str
+    along: Sequence[Along], kept: list[Variable], states: list[str], units: Mapping[str, str], location: str,
+    written: frozenset[frozenset[str]],
 ) -> list[Variable]:  # fmt: skip
     """What drives a flow between two places: states less states, inputs and parameters of the same unit; those that are
-    no multiple of a variable that is there. The ones that hold the place's own state come first."""
+    no multiple of a variable that is there. The ones that hold the place's own state come first, of them those that
+    drive something in the model."""
     fixed = {n for n, v in along[0].values.items() if np.ndim(v) == 0 and units.get(n) and v != 0}
     states = [n for n in states if units.get(n)]
     pairs = [(a, b) for k, a in enumerate(states) for b in states[k + 1 :] if units[a] == units[b]]
     pairs += [(a, b.name) for a in states for b in kept if b.kind in ("other", "input") and units[a] == b.unit]
     pairs += [(a, n) for a in states for n in sorted(fixed) if units[a] == units[n]]
-    pairs.sort(key=lambda pair: not any(n == location or n.rpartition(".")[0] == location for n in pair))
+
+    def rank(pair: tuple[str, str]) -> tuple[bool, bool]:
+        return not any(n == location or n.rpartition(".")[0] == location for n in pair), set(pair) not in written
+
+    pairs.sort(key=rank)
     courses = [np.concatenate([v.course(a.values) for a in along]) for v in kept]
     found: list[Variable] = []
     for name, minus in pairs:
