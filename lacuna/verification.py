@@ -107,7 +107,7 @@ def _made_by(folder: Path) -> dict[str, Any]:
         words, files, inputs = made["command"], made["files"], made["inputs"]
         sound = made["format"] == FORMAT and words[0] in VERIFIABLE and isinstance(inputs, dict)
         sound = sound and all(isinstance(word, str) for word in (*words, *files))
-        sound = sound and not any(word.partition("=")[0] in _FORBIDDEN for word in words)
+        sound = sound and bool(files) and not any(word.partition("=")[0] in _FORBIDDEN for word in words)
     except (KeyError, IndexError, TypeError):
         sound = False
     if not sound or any(".." in Path(name).parts or Path(name).is_absolute() for name in files):

@@ -8,6 +8,7 @@ import math
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
+from lacuna.analysis.prognosis.filter.settings import DEFAULT
 from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
 
 FORECAST, TOO_EARLY, STEADY = "forecast", "too_early", "steady"
@@ -15,6 +16,7 @@ BEYOND = "what was read lies beyond the last limit: repeat the test, or remove t
 WIDE, UNSEEN = "lives that differ tenfold agree with the tests", "no growth can be told yet"
 DECADE = 10.0  # between the ends of the 80 % interval: wider, no removal can be planned by it
 SETTLED = 0.05  # probability of the limit within as much use again as was watched, below which a part is called steady
+MOST = int(DEFAULT.lives[1] / 2)  # tests of a part: lives of which these are the first half are not believed to be
 FEWEST = 3  # tests of a part: two give a rate, the third can contradict it
 INCOHERENT = 0.25  # share of outliers beyond which the tests are not one part's
 SEEN = 2.0  # standard deviations of the trend, below which growth is not told from none
@@ -48,6 +50,9 @@ def verdict_on(h: History, outlier: np.ndarray, quantiles: np.ndarray, again: fl
     if len(rows) < FEWEST:
         tests = f"{len(rows) or 'no'} {'test' if len(rows) == 1 else 'tests'} of this part with a severity"
         return TOO_EARLY, f"{tests}; a trend needs {FEWEST}", beyond
+    if len(rows) > MOST:
+        every = -(-len(rows) // MOST)
+        return TOO_EARLY, f"{len(rows)} tests of one part; at most {MOST} are read: give one of {every}", beyond
     if contradiction := _contradiction(part, h.unit):
         return TOO_EARLY, "the tests contradict each other", (contradiction, *beyond)
     _, low, median, high, _ = quantiles

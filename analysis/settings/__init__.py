@@ -30,6 +30,9 @@ class Band:
     published_rise: float | None = None  # A, of the mean RMS
 
 
+MISSED = 1e-6  # of a step, by which the last severity may lie beside a whole number of them: what its digits round
+
+
 @dataclass(frozen=True)
 class Fault:
     """The axis of a map: a parameter of the model and its values."""
@@ -144,6 +147,13 @@ def _check_sizes(settings: Settings) -> None:
         raise AnalysisError(f"{path}: [fault] needs first <= last")
     if (fault.last - fault.first) / fault.step > MOST_TESTS:
         raise AnalysisError(f"{path}: [fault] makes more than {MOST_TESTS} tests of a map")
+    steps = (fault.last - fault.first) / fault.step
+    if abs(steps - round(steps)) > MISSED:
+        raise AnalysisError(
+            f"{path}: [fault] goes from {fault.first:g} to {fault.last:g}, no whole steps of {fault.step:g}"
+        )
+    if len(set(settings.currents)) < len(settings.currents):
+        raise AnalysisError(f"{path}: [signals] names a current twice")
     if settings.sampling_rate * settings.duration * 8 * (len(settings.currents) + 2) > LARGEST:
         raise AnalysisError(f"{path}: [recording] makes more than {LARGEST >> 20} MB a test")
     if not settings.speed_after < settings.duration:

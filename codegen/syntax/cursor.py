@@ -7,6 +7,7 @@ from lacuna.codegen.syntax.lexer import KEYWORDS, Source
 from lacuna.suggest import did_you_mean
 
 MAX_DEPTH = 100
+OF_OTHERS = ("elsif", "elif")  # for elseif, in languages that engineers come from
 MAX_OPERANDS = 1000
 
 
@@ -82,11 +83,18 @@ class Cursor:
             raise self.unexpected("';' or an operator")
         raise Diagnostic("P006", "';' is missing", self.source.span(end - 1), "end the line above with ';'")
 
+    @property
+    def slip(self) -> str:
+        """A hint where the word here is a keyword of other languages."""
+        return "did you mean elseif?" if self.word in OF_OTHERS else ""
+
     def unexpected(self, wanted: str) -> Diagnostic:
         hint = ""
         if self.kind == "id":
             hint = did_you_mean(self.word, [k for k in KEYWORDS if f"'{k}'" in wanted])
         found = self.word if self.kind == "eof" else f"'{self.word}'"
+        if self.at and self.words[self.at - 1] in OF_OTHERS:
+            hint = "did you mean elseif?"
         hint = hint or f"put {wanted} before {found}, or remove {found}"
         return Diagnostic("P003", f"expected {wanted}, found {found}", self.span(), hint)
 

@@ -49,7 +49,7 @@ class ExpressionParser(ArgumentParser):
             if not self.accept("elseif"):
                 break
         if self.kind != "else":
-            hint = "an if-expression has a value in every case: if c then a else b"
+            hint = self.slip or "an if-expression has a value in every case: if c then a else b"
             raise Diagnostic("P014", "this if-expression has no 'else'", self.span(start), hint)
         self.at += 1
         otherwise = self.expression()

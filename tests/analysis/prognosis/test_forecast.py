@@ -76,6 +76,12 @@ def test_a_change_of_the_rate_is_followed():
     assert f.quantiles[-1, 0] < 4000 - 3000 < f.quantiles[-1, -1]
 
 
+def test_more_tests_than_a_life_is_believed_to_have_are_no_forecast():
+    """Ten thousand of a straight line told a third of the life that was left, with an interval that left it out."""
+    f = said(history(linear, np.arange(0, 3000.0, 1.5)))
+    assert f.verdict == "too_early" and "give one of 2" in f.reason and not f.tells
+
+
 @pytest.mark.parametrize("tests", [1, 2])
 def test_too_few_tests_are_too_early(tests):
     f = said(history(linear, TESTS[:tests] + 100))
