@@ -42,9 +42,9 @@ static bool allocate_numbers(rt_session *s) {
          **samples[] = {&s->clock.first, &s->clock.interval};
   double **algebraic[] = {&m->v, &s->v_trial, &s->v_before, &s->v_end, &s->v_agreed, &r->v}, **dense[] = {&s->dense.c},
          **shapes[] = {&s->shape, &s->rates, &s->swing};
-  double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial, &s->xdot_trial, &s->x_before,
-                       &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,       &r->xdot,       &s->x_swept,
-                       &s->x_start};
+  double **states[] = {&m->x,        &m->xdot,        &s->initial_value, &s->x_trial,  &s->xdot_trial,
+                       &s->x_before, &s->xdot_before, &s->x_end,         &s->xdot_end, &r->x,
+                       &r->xdot,     &s->x_swept,     &s->x_start};
   double **sizes[] = {&s->nominal}, **division[] = {&s->division};
   double **guards[] = {&s->g,        &s->g_previous,    &s->g_low,         &s->g_trial, &s->g_before,
                        &s->g_oldest, &s->g_reach,       &s->bound,         &s->g_span,  &s->g_travel,
