@@ -13,6 +13,7 @@ from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws import screening
 from lacuna.discovery.efforts.laws.terms import counts, groups
 from lacuna.discovery.efforts.laws.variables import variables
+from lacuna.discovery.efforts.places.sites import MOST
 from lacuna.discovery.efforts.places.sites import Site as Place
 from lacuna.discovery.law.empirical_law import free_of
 from lacuna.discovery.law.law import Law, Site, attach
@@ -50,6 +51,16 @@ def test_states_are_taken_against_each_other_and_against_what_surrounds_them() -
 def test_a_difference_that_a_variable_of_the_model_already_is_comes_once() -> None:
     q = 3.0 * (ROOM["T1"] - ROOM["T2"])
     assert [v.reading for v in found(q=q) if v.minus] == []
+
+
+def test_a_difference_that_the_model_takes_is_there_however_many_variables_stand_nearer() -> None:
+    near = {f"T1.f{k}": np.sin((2 + 0.7 * k) * TIME + k) for k in range(MOST)}
+    given = along(**ROOM, **near, Ta=290 + 5 * np.sin(0.2 * TIME))
+    units = known(T1="K", T2="K", Ta="K", **dict.fromkeys(near, "N"))
+    for written, expected in ((frozenset(), False), (frozenset({frozenset({"T2", "Ta"})}), True)):
+        kept = variables(given, "T1", units, ["T1", "T2"], frozenset(), written=written)
+        assert "Ta" not in [v.name for v in kept]
+        assert ("(T2 - Ta)" in [v.reading for v in kept]) is expected
 
 
 def test_a_law_of_a_difference_reads_the_model_and_is_told_in_it() -> None:

@@ -72,7 +72,7 @@ def variables(
             break
     believed = {n: u for n, u in units.items() if not added(n)}
     moving = [n for n in states if n in names and np.ptp(np.concatenate([a.values[n] for a in along])) > 0]
-    kept += _differences(along, kept, moving, believed, location, written)
+    kept += _differences(along, kept, names, moving, believed, location, written)
     return [*_with_rates(along, kept, states), *_of_recordings(along, known, added, len(kept))]
 
 
@@ -96,16 +96,19 @@ def _of_recordings(
 
 
 def _differences(
-    along: Sequence[Along], kept: list[Variable], states: list[str], units: Mapping[str, str], location: str,
-    written: frozenset[frozenset[str]],
+    along: Sequence[Along], kept: list[Variable], names: list[str], states: list[str], units: Mapping[str, str],
+    location: str, written: frozenset[frozenset[str]],
 ) -> list[Variable]:  # fmt: skip
-    """What drives a flow between two places: states less states, inputs and parameters of the same unit; those that are
-    no multiple of a variable that is there. The ones that hold the place's own state come first, of them those that
-    drive something in the model."""
+    """What drives a flow between two places: states less states, inputs and parameters of the same unit, and less what
+    the model itself takes from them, far as it may be; those that are no multiple of a variable that is there. The
+    ones that hold the place's own state come first, of them those that drive something in the model."""
     fixed = {n for n, v in along[0].values.items() if np.ndim(v) == 0 and units.get(n) and v != 0}
+    taken = {*states, *(v.name for v in kept)}
+    stated = sorted(n for n in set().union(*written) if n in names and units.get(n) and n not in taken)
     states = [n for n in states if units.get(n)]
     pairs = [(a, b) for k, a in enumerate(states) for b in states[k + 1 :] if units[a] == units[b]]
     pairs += [(a, b.name) for a in states for b in kept if b.kind in ("other", "input") and units[a] == b.unit]
+    pairs += [(a, b) for a in states for b in stated if {a, b} in written and units[a] == units[b]]
     pairs += [(a, n) for a in states for n in sorted(fixed) if units[a] == units[n]]
 
     def rank(pair: tuple[str, str]) -> tuple[bool, bool]:
