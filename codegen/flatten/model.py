@@ -114,7 +114,13 @@ def _check_units(model: flat.FlatModel, context: Context, mode: str) -> flat.Fla
 def _note_findings(model: flat.FlatModel, context: Context, mode: str) -> None:
     package = context.library.foreign_package
     findings = check_units(
-        model, context.argument_units, context.function_units, context.places, package, context.literal_units
+        model,
+        context.argument_units,
+        context.function_units,
+        context.places,
+        package,
+        context.literal_units,
+        context.bodies,
     )
     own = [f for f in findings if mode == "all" or not package(f.span.file)]
     told = [replace(f, severity="warning") for f in own] if mode == "warn" else own

@@ -3,49 +3,52 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, field
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.symbolic.expr import REAL, Expr, to_text, var, walk
-from lacuna.codegen.units.inference import (
-    SECOND,
-    UNKNOWN,
-    Finding,
-    UnitError,
-    UnitInference,
-    of_variable,
-    over,
-)
+from lacuna.codegen.symbolic.expr import REAL, Expr, to_text, var
+from lacuna.codegen.units.inference import UNKNOWN, Finding, UnitError, UnitInference, of_variable
+from lacuna.codegen.units.undeclared import Undeclared
 from lacuna.units import Unit, UnknownSymbol, factors_of, format_unit, is_standard, of_factors, parse_unit
 
 MAX_FINDINGS = 10  # of a model's own
 MAX_COUNTED = 1000  # of libraries
-Argument = tuple[Expr, str, str, Span]  # value, declared unit, which input of which function, where
+Required = tuple[Expr, str, str, Span]  # value, declared unit, which input of which function, where
+
+
+@dataclass
+class Body:
+    """A function's body on names in place of its variables: the units of these, and what values are to have."""
+
+    units: dict[str, str] = field(default_factory=dict)
+    values: list[Required] = field(default_factory=list)
 
 
 def check_units(
     model: flat.FlatModel,
-    arguments: Iterable[Argument] = (),
+    arguments: Iterable[Required] = (),
     function_units: dict[str, str] | None = None,
     places: dict[tuple[str, str], Span] | None = None,
     package: Callable[[str], str] = lambda file: "",
     literals: dict[str, str] | None = None,
+    bodies: Iterable[Body] = (),
 ) -> list[Diagnostic]:
     """Every finding, one a place, in order of the model; at most MAX_FINDINGS of a severity, those in libraries
     aside, which `package` tells by their name. Without any unit there is no check.
 
     `arguments` are values given to inputs with a unit; `function_units` the units of results by function;
     `places` says where the binding or an attribute of a variable was written, where not in its declaration; `literals`
-    are the units of numbers that are given to inputs, by the names that marked values have for them.
+    are the units of results of functions and of numbers given to their inputs, by the names that marked values have
+    for them; `bodies` those of the functions.
     """
     if not any(v.unit for v in model.variables.values()):
         return []
     check = _Check(model, function_units or {}, places or {}, package)
     check.units |= {name: parse_unit(unit) for name, unit in (literals or {}).items()}
-    return check.run(arguments)
+    return check.run(arguments, bodies)
 
 
 def drop_unread(model: flat.FlatModel) -> None:
@@ -84,7 +87,6 @@ class _Check:
         self.model, self.function_units, self.places = model, function_units, places
         self.findings: list[Diagnostic] = []
         self.units: dict[str, Finding] = {}
-        self._names: dict[Expr, set[str]] = {}  # of the variables in sides of equations
         for v in model.variables.values():
             try:
                 self.units[v.name] = of_variable(v.unit, v.type, v.variability)
@@ -105,10 +107,11 @@ class _Check:
             message = f"{v.name}: {v.unit!r} is no unit as the language writes them (19.1), and is read as {meant}"
             self._note(Diagnostic("W014", message, v.span, f'unit="{meant}"', severity="warning"))
 
-    def run(self, arguments: Iterable[Argument]) -> list[Diagnostic]:
+    def run(self, arguments: Iterable[Required], bodies: Iterable[Body]) -> list[Diagnostic]:
         arguments = list(arguments)
         self._take_of_inputs(arguments)
-        self._infer_unknown()
+        if UNKNOWN in self.units.values():
+            Undeclared(self.units, self._inference).infer(self._pairs())
         inference = self._inference()
         for e in _as_written((*self.model.equations, *self.model.initial_equations)):
             self._equation(inference, e)
@@ -119,15 +122,20 @@ class _Check:
         for a in self.model.algorithms:
             self._statements(inference, a.statements)
         self._statements(inference, self.model.asserts)
-        for value, unit, what, span in arguments:
-            self._guarded(span, lambda v=value, u=unit, w=what: inference.require(v, parse_unit(u), w))
+        self._required(inference, arguments)
+        for body in bodies:
+            known = {name: parse_unit(unit) if unit else UNKNOWN for name, unit in body.units.items()}
+            self._required(self._inference(self.units | known), body.values)
         self._note_inferred()
         return self.findings
 
-    def _inference(self) -> UnitInference:
-        return UnitInference(
-            lambda e: self.units.get(str(e.value), UNKNOWN), lambda name: self.function_units.get(name, "")
-        )
+    def _required(self, inference: UnitInference, values: Iterable[Required]) -> None:
+        for value, unit, what, span in values:
+            self._guarded(span, lambda v=value, u=unit, w=what: inference.require(v, parse_unit(u), w))
+
+    def _inference(self, units: Mapping[str, Finding] | None = None) -> UnitInference:
+        known = self.units if units is None else units
+        return UnitInference(lambda e: known.get(str(e.value), UNKNOWN), lambda name: self.function_units.get(name, ""))
 
     def _guarded(self, span: Span, action: Callable[[], object], text: Callable[[], str] | None = None) -> None:
         try:
@@ -204,88 +212,15 @@ class _Check:
             if not v.unit and v.type == REAL and isinstance(found, Unit) and found.factor == 1.0:
                 v.inferred_unit = format_unit(found)
 
-    def _take_of_inputs(self, arguments: list[Argument]) -> None:
+    def _take_of_inputs(self, arguments: list[Required]) -> None:
         """A variable without a unit that is handed to a function has that of the input."""
         for value, unit, _, _ in arguments:
             if value.op == "var" and self.units.get(str(value.value)) == UNKNOWN:
                 with suppress(ValueError):  # told where the argument is checked
                     self.units[str(value.value)] = parse_unit(unit)
 
-    def _infer_unknown(self) -> None:
-        """Units of variables that declare none, from equations that leave one choice; to a fixed point. First from
-        equations without a number that may have a unit itself: what is inferred from the others is `soft`."""
-        if UNKNOWN not in self.units.values():
-            return
-        written = _as_written(self.model.equations)
-        pending = [e for e in written if not e.branches and (self._has_unknown(e.lhs) or self._has_unknown(e.rhs))]
-        bindings = [(v.name, v.binding) for v in self.model.variables.values() if v.binding is not None]
-        pairs = [(e.lhs, e.rhs) for e in pending]
-        pairs += [(var(n), b) for n, b in bindings if self.units[n] == UNKNOWN and b.op != "const"]
-        scaled = self._inference().has_written_factor
-        sides = [(lhs, rhs, scaled(lhs) or scaled(rhs)) for lhs, rhs in pairs]
-        self._infer_from([pair for pair in sides if not pair[2]])
-        self._infer_from(sides)
-
-    def _infer_from(self, pairs: list[tuple[Expr, Expr, bool]]) -> None:
-        """As far as these sides of equations, and whether what they tell is soft, lead."""
-        changed = True
-        while changed and pairs:
-            changed = False
-            inference = self._inference()
-            rest = []
-            for lhs, rhs, soft in pairs:
-                try:
-                    left, right = (_softer(inference.of(side), soft) for side in (lhs, rhs))
-                    solved = self._solve(lhs, right, inference) | self._solve(rhs, left, inference)
-                except UnitError:
-                    continue
-                changed = changed or solved
-                if self._has_unknown(lhs) or self._has_unknown(rhs):
-                    rest.append((lhs, rhs, soft))
-            pairs = rest
-
-    def _has_unknown(self, e: Expr) -> bool:
-        names = self._names.get(e)
-        if names is None:
-            names = self._names[e] = {str(n.value) for n in walk(e) if n.op == "var"}
-        return any(self.units.get(name) == UNKNOWN for name in names)
-
-    def _solve(self, e: Expr, unit: Finding, inference: UnitInference) -> bool:
-        """Give the unknown inside `e` the unit that makes `e` have `unit`, where there is exactly one way."""
-        if not isinstance(unit, Unit):
-            return False
-        if e.op == "var":
-            if self.units.get(str(e.value)) != UNKNOWN:
-                return False
-            self.units[str(e.value)] = unit
-            return True
-        if e.op == "der":
-            return self._solve(e.args[0], unit * SECOND, inference)
-        if e.op in ("neg", "noEvent", "smooth", "pre"):
-            return self._solve(e.args[-1], unit, inference)
-        if e.op in ("delay", "annotated"):
-            return self._solve(e.args[0], unit, inference)
-        if e.op in ("+", "-", "if", "min", "max"):
-            parts = e.args[1:] if e.op == "if" else e.args
-            solved = [self._solve(a, unit, inference) for a in parts]
-            return any(solved)
-        if e.op in ("*", "/"):
-            return self._solve_product(e, unit, inference)
-        return False
-
-    def _solve_product(self, e: Expr, unit: Unit, inference: UnitInference) -> bool:
-        a, b = e.args
-        known_a, known_b = inference.of(a), inference.of(b)
-        if known_b != UNKNOWN and known_a == UNKNOWN:
-            inverse = known_b**-1 if isinstance(known_b, Unit) else known_b
-            wanted = over(unit, known_b if e.op == "*" else inverse)
-            return self._solve(a, wanted, inference)
-        if known_a != UNKNOWN and known_b == UNKNOWN:
-            wanted = over(unit, known_a) if e.op == "*" else over(known_a, unit)
-            return self._solve(b, wanted, inference)
-        return False
-
-
-def _softer(unit: Finding, soft: bool) -> Finding:
-    """A unit as it is inferred from an equation."""
-    return replace(unit, soft=True) if soft and isinstance(unit, Unit) else unit
+    def _pairs(self) -> list[tuple[Expr, Expr]]:
+        """Sides of equations, and variables with what is bound to them, that may tell a unit."""
+        pairs = [(e.lhs, e.rhs) for e in _as_written(self.model.equations) if not e.branches]
+        bound = ((v.name, v.binding) for v in self.model.variables.values() if v.binding is not None)
+        return pairs + [(var(n), b) for n, b in bound if self.units[n] == UNKNOWN and b.op != "const"]

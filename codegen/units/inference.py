@@ -150,15 +150,15 @@ class UnitInference:
             return found ** Fraction(1, 2) if isinstance(found, Unit) else found
         if name in _ANGLE_FUNCTIONS:
             self.require(args[0], DIMENSIONLESS, f"{name} takes a number without unit")
-            return LITERAL if self.of(args[0]) == LITERAL else _COUNT
+            return LITERAL if self.of(args[0]) == LITERAL else DIMENSIONLESS
         if name in ("abs", "floor", "ceil"):
             return self.of(args[0])
         if name in ("sign", "integer"):
             self.of(args[0])
-            return _COUNT
+            return DIMENSIONLESS
         if name in ("mod", "rem", "atan2", "div"):
             found = self.common(args, e, f"arguments of {name}")
-            return found if name in ("mod", "rem") else _COUNT
+            return found if name in ("mod", "rem") else DIMENSIONLESS
         if name == "[]":
             return self.of(args[0])
         self._all(args)
@@ -195,6 +195,8 @@ class UnitInference:
             return any(self._is_scale(a) or (a.op != "time" and self.has_written_factor(a)) for a in e.args)
         if e.op in ("if", "smooth"):  # a condition, an order
             return any(map(self.has_written_factor, e.args[1:]))
+        if tells_units(e):
+            return self.has_written_factor(e.value)
         if e.op in ("annotated", "^") or (e.op == "call" and str(e.value) in ("sqrt", "abs")):
             return self.has_written_factor(e.args[0])
         inside = e.op in ("+", "-", "neg", "min", "max", "noEvent", "pre") and any(map(self.has_written_factor, e.args))

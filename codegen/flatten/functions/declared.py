@@ -14,13 +14,18 @@ from lacuna.codegen.flatten.classes.types import EXTERNAL
 from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.functions.annotated import with_derivatives
+from lacuna.codegen.flatten.functions.declared_units import (
+    check_body,
+    is_looked_at,
+    note_units,
+    with_declared_units,
+)
 from lacuna.codegen.flatten.functions.effort import MAX_INLINE_DEPTH, is_small
 from lacuna.codegen.flatten.functions.fitting import SizeVaries, blank, counts_evaluated, evaluated, fit
 from lacuna.codegen.flatten.functions.interpret import interpret
 from lacuna.codegen.flatten.functions.kept.code import emitted_call
 from lacuna.codegen.flatten.functions.library.external import call_external
 from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
-from lacuna.codegen.flatten.functions.literal_units import with_literal_units
 from lacuna.codegen.flatten.functions.locals import Local, Signature, signature_of
 from lacuna.codegen.flatten.names.scope import Scope, find_class
 from lacuna.codegen.flatten.names.values import (
@@ -113,6 +118,8 @@ def _results(signature: Signature, arguments: dict[str, Value], e: ast.Call, sco
         return call_external(signature, arguments, e, scope)
     items = [a for v in arguments.values() for a in scalars(v)]
     known = all(isinstance(a, str) or a.op == "const" for a in items)
+    if is_looked_at(scope) and not (known and context.library.foreign_package(cls.span.file)):
+        check_body(signature, arguments, context, e.span)
     makes_events = _makes_events(cls)
     if known or (context.call_depth < MAX_INLINE_DEPTH and (makes_events or not _has_events(items))):
         context.call_depth += 1
@@ -120,10 +127,8 @@ def _results(signature: Signature, arguments: dict[str, Value], e: ast.Call, sco
             results = interpret(signature, arguments, context, e.span)
             if known or makes_events or is_small(results, arguments):
                 results = results if makes_events else [_without_events(r) for r in results]
-                if not scope.in_function:
-                    results = with_literal_units(signature, arguments, results, context, e.span)
-                for local, value in zip(signature.outputs, results, strict=True):
-                    note_units(local, value, e.span, f"output {local.name} of {cls.name}", scope)
+                if is_looked_at(scope):
+                    results = with_declared_units(signature, arguments, results, context, e.span)
                 return results
         except AtRunTime:
             pass
@@ -251,13 +256,6 @@ def function_value(e: ast.Expression, scope: Scope) -> FunctionValue:
         takes = _takes_function(inputs[name])
         bound[name] = function_value(value, scope) if takes else lower(value, scope)
     return FunctionValue(cls, bound)
-
-
-def note_units(local: Local, value: Value, span: Span, what: str, scope: Scope) -> None:
-    """Have the unit check compare `value` with the unit that `local` declares."""
-    if local.unit and isinstance(value, Expr | Array) and not scope.in_function:
-        for item in scalars(value):
-            scope.context.argument_units.append((item, local.unit, what, span))
 
 
 def _eventful(n: Expr) -> bool:

@@ -37,21 +37,24 @@ from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr
 from lacuna.codegen.syntax import ast
 
-Named = Callable[[Local, Value], Value]
+Named = Callable[[Local, Value, Span], Value]
 MAX_STEPS = 50_000
 MAX_SYMBOLIC_STEPS = 400
 
 
 def interpret(
-    signature: Signature, arguments: dict[str, Value], context: Context, span: Span, named: Named | None = None
-) -> list[Value]:
-    """Results of the function on `arguments`. Raises AtRunTime where its course depends on unknown values. `named`
-    gives what stands for the value of a variable that declares a unit."""
+    signature: Signature, arguments: dict[str, Value], context: Context, span: Span, named: Named | None = None,
+    once: bool = False,
+) -> list[Value]:  # fmt: skip
+    """Results of the function on `arguments`. Raises AtRunTime where its course depends on unknown values; with `once`,
+    loops without a known end are passed once, and no assert holds it up: who reads units asks for no values. `named`
+    gives what stands for a value that is assigned, there, to a variable that declares a unit.
+    """
     if signature.external is not None:
         return _native(signature, arguments, span)
     run = _Run(signature, context, dict(arguments), span)
     run.named = {local.name: partial(named, local) for local in signature.locals if named is not None and local.unit}
-    run.inputs = frozenset(arguments)
+    run.inputs, run.once = frozenset(arguments), once
     run.kinds = {local.name: local.type.primitive for local in signature.locals}
     for local in signature.in_order:
         if local.declaration.causality == "input":
@@ -61,7 +64,7 @@ def interpret(
         if default is not None:
             value = fit(local, lower(default, local.around_default(scope)), scope, default.span)
             run.locals[local.name] = _named_constant(local, signature.cls, value, context) if run.symbolic else value
-            run.name(local.name)
+            run.name(local.name, default.span)
         else:
             if local.is_flexible:
                 run.flexible.add(local.name)
@@ -96,8 +99,9 @@ class _Run:
         self.span = span
         self.inputs: frozenset[str] = frozenset()
         self.kinds: dict[str, str | None] = {}  # what is declared: a Real may hold the text of an Integer
-        self.named: dict[str, Callable[[Value], Value]] = {}
+        self.named: dict[str, Callable[[Value, Span], Value]] = {}
         self.flexible: set[str] = set()  # arrays declared with `:`, which take the size of what is assigned (12.4.5)
+        self.once = False
         self.steps = 0
         symbolic = any(isinstance(s, Expr) and s.op != "const" for v in values.values() for s in scalars(v))
         self.symbolic = symbolic
@@ -125,13 +129,7 @@ class _Run:
         elif isinstance(item, ast.For):
             return self._for(item, 0)
         elif isinstance(item, ast.While):
-            while self._decided(item.condition):
-                signal = self.block(item.body)
-                self.steps += 1
-                if signal == "return":
-                    return signal
-                if signal == "break":
-                    break
+            return self._while(item)
         elif isinstance(item, ast.Break):
             return "break"
         elif isinstance(item, ast.Return):
@@ -143,6 +141,16 @@ class _Run:
             raise Diagnostic("R059", f"'{what}' in a function", item.span, "functions have no events")
         return ""
 
+    def _while(self, item: ast.While) -> str:
+        while self.once or self._decided(item.condition):
+            signal = self.block(item.body)
+            self.steps += 1
+            if signal == "return":
+                return signal
+            if signal == "break" or self.once:
+                break
+        return ""
+
     def _procedure(self, item: ast.Procedure) -> None:
         if str(item.call.function) != "assert":
             for a in effect(item, self.scope):
@@ -152,6 +160,8 @@ class _Run:
                     self._fail(a)
             return
         check = lower_assert(item.call, self.scope)
+        if self.once:
+            return
         if check.condition.op != "const":
             raise AtRunTime("an assert", item.span)
         if not check.condition.value and check.level == "error":
@@ -198,7 +208,7 @@ class _Run:
             if condition is TRUE and not outcomes:
                 return self.block(body)
             self.scope = replace(whole, conditional=True)
-            if self.block(body):
+            if self.block(body) and not self.once:
                 raise AtRunTime("leaving a branch early", item.span)
             outcomes.append((condition, dict(self.locals)))
             if condition is TRUE:
@@ -239,12 +249,12 @@ class _Run:
         if name in self.inputs:
             raise Diagnostic("R058", f"the input {name} is assigned", span, "copy it to a variable first")
         self.locals[name] = self._updated(self.locals[name], target, 0, value, span, self.kinds.get(name))
-        self.name(name)
+        self.name(name, span)
 
-    def name(self, variable: str) -> None:
+    def name(self, variable: str, span: Span) -> None:
         """Have what stands for its value in place of it, where the variable declares a unit."""
         if variable in self.named:
-            self.locals[variable] = self.named[variable](self.locals[variable])
+            self.locals[variable] = self.named[variable](self.locals[variable], span)
 
     def _updated(self, old: Value, target: ast.Ref, at: int, value: Value, span: Span, kind: str | None) -> Value:
         """`old`, of the type `kind`, with the part that `target` names, from name number `at` on, as `value`."""

@@ -16,6 +16,7 @@ from lacuna.codegen.flatten.names.values import Value
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.symbolic.annotated import DerivativeRule
 from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.units.check import Body
 
 T = TypeVar("T")
 MAX_ERRORS = 10
@@ -51,7 +52,9 @@ class Context:
     places: dict[tuple[str, str], Span] = field(default_factory=dict)  # of bindings and attributes: (variable, which)
     argument_units: list[tuple[Expr, str, str, Span]] = field(default_factory=list)  # value, unit, what, where
     function_units: dict[str, str] = field(default_factory=dict)  # of the result, by name of a kept function
-    literal_units: dict[str, str] = field(default_factory=dict)  # of numbers given to inputs, by names they have for it
+    literal_units: dict[str, str] = field(default_factory=dict)  # of results and of numbers given to inputs, by names
+    bodies: list[Body] = field(default_factory=list)  # of functions, for the unit check
+    body: Body | None = None  # the one that is being run for it
     derivatives: dict[str, list[DerivativeRule]] = field(default_factory=dict)  # of annotated values, by their keys
     call_depth: int = 0
     elements: int = 0

@@ -9,7 +9,6 @@ import pytest
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten import flatten
 from lacuna.codegen.library.classes import Library
-from lacuna.codegen.symbolic.expr import walk
 from tests.codegen.front.helpers import flatten_text
 
 DECLARED = """model M
@@ -108,17 +107,6 @@ def test_the_check_can_warn_or_rest(tmp_path: Path) -> None:
     assert flatten_text(tmp_path, text, units="off").warnings == []
 
 
-def test_arguments_and_results_of_functions(tmp_path: Path) -> None:
-    function = """
-    function drop input Real r(unit = "Ohm"); input Real a(unit = "A"); output Real v(unit = "V");
-    algorithm v := r*a; end drop;
-    """
-    flatten_text(tmp_path, function + DECLARED.format("u = drop(R, i);"))
-    for wrong, words in (("u = drop(R, u);", "input a of drop"), ("tau = drop(R, i);", "left and right")):
-        with pytest.raises(Diagnostic, match=words):
-            flatten_text(tmp_path, function + DECLARED.format(wrong))
-
-
 def test_bindings_starts_and_events_are_checked(tmp_path: Path) -> None:
     text = """model M
       parameter Real v0(unit = "m/s") = 1, s0(unit = "m") = 2;
@@ -136,32 +124,6 @@ def test_bindings_starts_and_events_are_checked(tmp_path: Path) -> None:
         flatten_text(tmp_path, text)
     lines = [refused.value.span.line, *(other.span.line for other in refused.value.others)]
     assert sorted(lines) == [3, 4, 9, 10]
-
-
-WEIGHT = """function weight
-  input Real m(unit = "kg"); output Real f(unit = "N");
-protected
-  constant Real g(unit = "m/s2") = 9.81;
-algorithm
-  f := m*g;
-end weight;
-"""
-
-
-def test_a_constant_of_a_function_keeps_its_unit(tmp_path: Path) -> None:
-    """Inlined, the body is checked as equations are: g as a mere number would leave kilograms."""
-    text = WEIGHT + 'model M parameter Real m(unit = "{}") = 2; Real f(unit = "N") = weight(m); end M;'
-    model = flatten_text(tmp_path, text.format("kg"))
-    assert (model.variables["weight.g"].unit, model.variables["weight.g"].variability) == ("m/s2", "constant")
-    with pytest.raises(Diagnostic, match="input m of weight"):
-        flatten_text(tmp_path, text.format("A"))
-
-
-def test_a_constant_of_a_function_is_a_number_where_all_is_known(tmp_path: Path) -> None:
-    text = WEIGHT + 'model M parameter Real f(unit = "N") = weight(3); end M;'
-    model = flatten_text(tmp_path, text)
-    assert model.variables["f"].binding.value == pytest.approx(29.43)
-    assert "weight.g" not in model.variables
 
 
 FOREIGN = """package Shop
@@ -192,25 +154,6 @@ def test_findings_inside_a_library_are_one_warning_and_own_ones_stay_errors(tmp_
     with pytest.raises(Diagnostic) as refused:
         flatten(Library([shelf]), str(own))
     assert (refused.value.code, refused.value.span.line, refused.value.others) == ("U001", 3, [])
-
-
-@pytest.mark.parametrize("call", ["drag(0.5, v)", "drag(c=0.5, v=v)", "drag(v=v)"])
-@pytest.mark.parametrize(("unit", "code"), [("N.s2/m2", None), ("N.s/m", "U001")])
-def test_a_number_for_an_input_has_the_unit_of_the_input(
-    tmp_path: Path, call: str, unit: str, code: str | None
-) -> None:
-    model = flatten_text(
-        tmp_path,
-        f"""model M
-  function drag input Real c(unit = "{unit}") = 3; input Real v(unit = "m/s"); output Real F;
-  algorithm F := c*v^2; end drag;
-  Real v(unit = "m/s", start = 1); parameter Real m(unit = "kg") = 2;
-equation
-  m*der(v) = -{call};
-end M;""",
-    )
-    assert [w.code for w in model.warnings] == ([] if code is None else [code])
-    assert all(n.op != "annotated" for e in model.equations for side in (e.lhs, e.rhs) for n in walk(side))
 
 
 def test_a_number_for_an_input_may_stand_in_bindings_and_sizes(tmp_path: Path) -> None:
@@ -275,3 +218,14 @@ equation
 end M;"""
     (found,) = flatten_text(tmp_path, text).warnings
     assert "a number there is in s," in found.hint
+
+
+@pytest.mark.parametrize(
+    ("unit", "value"),
+    [("deg", "atan2(b, a)"), ("deg", "asin(b/a)"), ("mm", "cos(b/a)*a"), ("%", "exp(-b/a)"), ("mm", "sign(b)*a")],
+)
+def test_a_function_is_no_change_of_scale(tmp_path: Path, unit: str, value: str) -> None:
+    text = f'model M parameter Real a(unit = "m") = 2, b(unit = "m") = 1; Real y(unit = "{unit}") = {value}; end M;'
+    with pytest.raises(Diagnostic) as refused:
+        flatten_text(tmp_path, text)
+    assert refused.value.code == "U004"
