@@ -18,7 +18,7 @@ from lacuna.codegen.flatten.connections.expandable import expand
 from lacuna.codegen.flatten.connections.local_balance import check_components
 from lacuna.codegen.flatten.connections.streams import stream_variables
 from lacuna.codegen.flatten.connections.structure import Structure
-from lacuna.codegen.flatten.equations.algorithms import flatten_algorithm
+from lacuna.codegen.flatten.equations.algorithms import carriers, flatten_algorithm
 from lacuna.codegen.flatten.equations.asserts import require_lasting
 from lacuna.codegen.flatten.equations.equations import Collected, check_discrete
 from lacuna.codegen.flatten.equations.texts import bind_texts
@@ -72,6 +72,7 @@ def flatten(
     expand(body.connections, buses, context)
     _flatten_variables(_leaves_of(buses), model, context)
     model.equations += body.equations + connection_equations(body.connections, context)
+    model.variables |= carriers(model, context)
     stream_variables(model, context)
     derivative_variables(model, context)
     context.finish()

@@ -25,21 +25,25 @@ from lacuna.codegen.syntax import ast
 
 def flatten_algorithm(section: ast.Section, scope: Scope, out: Collected) -> None:
     """Add what an algorithm section computes, as an Algorithm or as equations."""
+    context = scope.context
     _refuse_inner_whens(section.items)
     statements = _statements(section.items, scope, in_when=False)
     names = assigned(statements)
     if any(isinstance(s, flat.When) for s in _nested(statements)):
-        lasting = lasting_targets(statements, scope.context)
-        targets = _with_whole_arrays([n for n in names if n in lasting], scope.context)
+        lasting = lasting_targets(statements, context)
+        targets = _with_whole_arrays([n for n in names if n in lasting], context)
         run = SymbolicRun(scope, targets)
         kept = split_by_time(statements, lasting, run)
-        others = _with_whole_arrays([n for n in names if n not in lasting], scope.context)
+        others = _with_whole_arrays([n for n in names if n not in lasting], context)
         out.algorithms.append(flat.Algorithm(kept, others, section.span, origin_of(scope)))
     else:
-        targets = tuple(names) if section.initial else _with_whole_arrays(names, scope.context)
+        targets = tuple(names) if section.initial else _with_whole_arrays(names, context)
         run = SymbolicRun(scope, targets)
         run.block(statements, TRUE)
+    carried = context.table(Carried)
     for target in targets:
+        if carried.pop(target, ""):
+            continue  # what it carried is where it belongs
         value = run.result(target) if target in run.values else run.unassigned(target)
         variable, span = ex.var(target, run.type_of(target)), run.where.get(target, section.span)
         out.equations.append(flat.Equation(variable, value, span, origin_of(scope), f"{target} := ..."))
@@ -172,7 +176,7 @@ def assignment(item: ast.Assignment, scope: Scope) -> list[flat.Statement]:
                 check_types(chosen, v, item.span, scope)
                 result.append(flat.Assign(str(chosen.value), new, item.span))
     if len(result) > 1 and (len(written) > 1 or _chosen_by_itself(written[0])):
-        result = _simultaneous(result)
+        result = _simultaneous(result, scope.context)
     return result
 
 
@@ -204,12 +208,34 @@ def _chosen(target: Expr | str, value: Expr | str) -> list[tuple[Expr | str, Exp
     return [(e, ex.if_else(chosen, value, ex.if_else(none_before, target, e))) for e, chosen in elements]
 
 
-def _simultaneous(result: list[flat.Statement]) -> list[flat.Statement]:
-    """Elements assigned together must not read each other's new values."""
-    done: set[str] = set()
+class Carried(dict[str, str]):
+    """Variables that carry values to elements which are assigned together, and the elements."""
+
+
+def carriers(model: flat.FlatModel, context: Context) -> dict[str, flat.Variable]:
+    """The variables that carry values at events, each like the element that it is for."""
+    plain = {"causality": "local", "fixed": None, "hidden": True}
+    found = context.table(Carried)
+    return {n: replace(model.variables[e], name=n, description=f"assigned to {e}", **plain) for n, e in found.items()}
+
+
+def _simultaneous(result: list[flat.Assign], context: Context) -> list[flat.Assign]:
+    """Elements assigned together do not read each other's new values (11.2.1.1): what another one reads later gets its
+    own at the end."""
+    read: set[str] = set()
+    late: set[str] = set()
+    for s in reversed(result):
+        if s.target in read:
+            late.add(s.target)
+        read |= {str(n.value) for n in leaves(s.value) if n.op == "var"}
+    first, last = [], []
     for s in result:
-        if any(n.op == "var" and n.value in done for n in leaves(s.value)):
-            hint = "assign to another array first, then copy"
-            raise Diagnostic("R058", f"{s.target} reads an element assigned in the same statement", s.span, hint)
-        done.add(s.target)
-    return result
+        if s.target not in late:
+            first.append(s)
+            continue
+        name = f"new {s.target}"
+        context.scalars[name] = context.scalars[s.target]
+        context.table(Carried)[name] = s.target
+        first.append(replace(s, target=name))
+        last.append(flat.Assign(s.target, ex.var(name, context.scalars[name][0].primitive), s.span))
+    return first + last

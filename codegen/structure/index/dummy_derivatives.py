@@ -1,7 +1,8 @@
 """Which derivatives become algebraic: for every equation that was differentiated one.
 
 S. Mattsson, G. Soderlind, Index reduction in DAEs using dummy derivatives, SIAM J. Sci. Comput. 14 (1993) 677-692.
-The pivots are evaluated at the start values. Among good pivots stateSelect decides, then the order of derivative. The
+The pivots are evaluated at the start values. Among good pivots stateSelect decides, then the order of derivative, then
+whether the model itself has the derivative: such a variable is continuous, others may jump with what they follow. The
 choice holds for the whole run where the pivots do not vary, or can be chosen so; else `dynamic_states` makes it anew
 where it gets bad, or, where nothing else may be the state, an assert watches the pivot.
 """
@@ -137,6 +138,7 @@ class _Choice:
     def of(self, rows: list[Row]) -> _Choice:
         """From the highest derivatives down: what stands for a constraint's derivative may do so for its integral."""
         self._reset = _reinitialised(self.model)
+        self._written = {n for row in rows if row.integral is None for n in row.leaves if n.op == "der"}
         differentiated = {row.integral for row in rows if row.integral}
         constraints = [row for row in rows if row.integral and row not in differentiated]
         candidates = [v for v in self.variables if self.variables[v] and der(v) not in self.variables]
@@ -205,7 +207,8 @@ class _Choice:
         """Derivatives with the smallest become dummies first."""
         v = self.model.variables[str(base_of(derivative).value)]
         fixed = v.fixed is not None and v.fixed.op == "const" and bool(v.fixed.value)
-        return v.name in self._reset, STATE_SELECT.index(v.state_select), -self.variables[derivative], fixed
+        order = self.variables[derivative]
+        return v.name in self._reset, STATE_SELECT.index(v.state_select), -order, derivative in self._written, fixed
 
 
 def _reinitialised(model: flat.FlatModel) -> set[str]:
