@@ -13,7 +13,20 @@ from dataclasses import replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
-from lacuna.codegen.symbolic.expr import FALSE, REAL, START_TIME, TIME, ZERO, Expr, der, var, walk
+from lacuna.codegen.symbolic.expr import (
+    BOOLEAN,
+    FALSE,
+    REAL,
+    START_TIME,
+    TIME,
+    TRUE,
+    ZERO,
+    Expr,
+    const,
+    der,
+    var,
+    walk,
+)
 from lacuna.codegen.symbolic.leaves import leaves, with_leaves
 from lacuna.codegen.symbolic.rewrite import expressions
 
@@ -27,6 +40,7 @@ def free_parameters(model: flat.FlatModel) -> flat.FlatModel:
         return model
     variables, initial = _explicit(dict(model.variables), list(model.initial_equations), free)
     equations = list(model.equations)
+    initial += _start_equations(variables, free)
     for name in [n for n in variables if n in free]:
         equations += _converted(variables, initial, name)
     equations += _followers(variables)
@@ -57,6 +71,30 @@ def _definitions(eq: flat.Equation) -> list[tuple[str, Expr]]:
     """(name, value) of each side that is a variable which the other side does not hold."""
     sides = ((eq.lhs, eq.rhs), (eq.rhs, eq.lhs))
     return [(str(a.value), b) for a, b in sides if a.op == "var" and a not in leaves(b)]
+
+
+def _start_equations(variables: dict[str, flat.Variable], free: set[str]) -> list[flat.Equation]:
+    """Equations for fixed start values that depend on one of `free` (8.6); as a guess each start value stays, of what
+    these are guessed to be."""
+    equations: list[flat.Equation] = []
+    for v in [v for v in variables.values() if v.start is not None and v.variability == flat.CONTINUOUS]:
+        if _is_known(v.start, variables, free):
+            continue
+        if v.fixed is TRUE:
+            equations.append(flat.Equation(var(v.name, v.type), v.start, v.span, "", f"{v.name} = {v.start}"))
+        variables[v.name] = replace(v, start=_guess(v.start, variables, free), fixed=None)
+    return equations
+
+
+def _guess(e: Expr, variables: dict[str, flat.Variable], free: set[str]) -> Expr:
+    """`e` with start values in the place of `free` parameters."""
+    guesses = {}
+    for n in leaves(e):
+        v = variables.get(str(n.value)) if n.op == "var" else None
+        if v is not None and not _is_known(n, variables, free):
+            inner = (v.start or {REAL: ZERO, BOOLEAN: FALSE}.get(v.type, const(0))) if v.name in free else v.binding
+            guesses[n] = n if inner is None else _guess(inner, variables, free)
+    return with_leaves(e, guesses)
 
 
 def _is_known(e: Expr, variables: dict[str, flat.Variable], free: set[str]) -> bool:
