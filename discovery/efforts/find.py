@@ -17,10 +17,11 @@ from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.trace import looking
+from lacuna.discovery.efforts.guide import Guided, guide
 from lacuna.discovery.efforts.instruments import colour_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.laws.screening import proposals
-from lacuna.discovery.efforts.located import Guided, Locator, Site
+from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.efforts.places.sites import SEVERAL
 from lacuna.discovery.fit.evidence import LEFT, astray, nearly_noise, settled
@@ -245,7 +246,7 @@ def _join(case: Case, base: Fit, laws: list[Candidate], guided: Guided) -> None:
 def _offered(locator: Locator, site: Site, progress: Progress) -> Iterator[tuple[list[Proposal], Guided]]:
     """Laws to be fitted at a place, as they are asked for, and what they were screened along."""
     try:
-        guided = locator.guided(site)
+        guided = guide(locator, site)
         progress(f"screening laws at {site.location}")
         for offered in proposals(locator, site, guided, TRIED):
             yield offered, guided

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 
 import numpy as np
 
@@ -14,14 +13,14 @@ from lacuna.discovery.case.values import is_read, is_start, state_of
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import evidence
-from lacuna.discovery.efforts.latent.smoother import Whitener, acting, courses
+from lacuna.discovery.efforts.latent.smoother import Whitener
 from lacuna.discovery.efforts.latent.thinned import thinned_all
 from lacuna.discovery.efforts.places.opened import Opened
 from lacuna.discovery.efforts.places.place import Place
 from lacuna.discovery.fit.evidence import SIGMAS
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free
-from lacuna.runtime import RecordedInput, SimulationError
+from lacuna.runtime import RecordedInput
 
 SIZES = 10.0 ** np.arange(-1.0, 2.1, 0.5)  # of the effort that would explain the misfit by itself: half decades
 TIMES = (1 / 300, 1 / 50, 1 / 8)  # of the longest recording: shorter is noise, longer is a constant
@@ -37,22 +36,6 @@ class Site:
     explains: float
     place: Place | None = None
     effort: dict[str, tuple[np.ndarray, np.ndarray, np.ndarray]] = field(default_factory=dict)  # time, mean, std
-
-
-@dataclass
-class Guided:
-    """The model led along the data by an effort at one place: where laws are screened."""
-
-    point: dict[str, float]
-    pieces: list[Piece]
-    efforts: list[np.ndarray]  # (n,) on each recording
-    mean: np.ndarray
-    latent: Latent
-
-    @cached_property
-    def thin(self) -> list[Piece]:
-        """The pieces for a search over many laws."""
-        return thinned_all(self.pieces)
 
 
 class Locator:
@@ -89,7 +72,7 @@ class Locator:
         left = np.stack(
             [recording.columns[c] - opened.linear.of(v, along) for c, v in opened.machine.columns.items()], 1
         )
-        left = left + _response(along, efforts)
+        left = left + response(along, efforts)
         inputs, count = len(opened.linear.inputs), sum(not is_start(f.name) for f in self.free)
         answers = along.response(np.arange(inputs, inputs + count), np.ones((len(time), count)))
         answers = np.concatenate([answers, self._from_starts(along, recording)], axis=2) * self.sigma
@@ -169,9 +152,9 @@ class Locator:
 
     def hypotheses(self) -> tuple[Latent, list[tuple[str, int]]]:
         longest = max(p.along.time[-1] - p.along.time[0] for p in self.pieces)
-        misfit, rows, owners = self._size([p.data[:, :, 0] for p in self.pieces]), [], []
+        misfit, rows, owners = self.size([p.data[:, :, 0] for p in self.pieces]), [], []
         for number, place in enumerate(self.places):
-            size = self._size([self._answer(p, place) for p in self.pieces])
+            size = self.size([self._answer(p, place) for p in self.pieces])
             if size == 0:  # nothing of it is recorded
                 continue
             unit = misfit / size
@@ -208,54 +191,9 @@ class Locator:
                 return False
         return True
 
-    def _size(self, outputs: list[np.ndarray]) -> float:
+    def size(self, outputs: list[np.ndarray]) -> float:
         """RMS over samples and outputs, in units of noise."""
         return float(np.sqrt(np.nanmean(np.concatenate([o / self.noise for o in outputs]) ** 2)))
-
-    def _level(self) -> np.ndarray:
-        """RMS of each output over all samples, in units of its noise, at least one."""
-        left = np.concatenate([p.data[:, :, 0] for p in self.pieces]) / self.noise
-        return np.maximum(1.0, np.sqrt(np.nanmean(left**2, axis=0)))
-
-    def _led(self, point: dict[str, float], efforts: list[list[tuple[int, np.ndarray]]]) -> list[Piece]:
-        """The linear model about the runs from `point` with these efforts on each recording."""
-        return [self.piece(point, r, own) for r, own in zip(self.case.fit, efforts, strict=True)]
-
-    def _nearer(self, latent: Latent) -> list[Piece]:
-        """The linear models about runs that the effort leads ever nearer to the data, from coarse to fine: noise is
-        taken to be a power of the misfit, from 1 to a half, in steps halved where a run ends further from the data."""
-        held = np.array([self.point[f.name] - f.centre for f in self.free]) / self.sigma
-        pieces, level, power, step = self.pieces, self._level(), 1.5, 0.5
-        missed = self._size([p.data[:, :, 0] for p in pieces])
-        while power > 0.5 and step > 0.1:  # a dozen runs at most
-            coarse = [replace(p, noise=self.noise * level ** (power - step)) for p in pieces]
-            efforts = acting(coarse, latent, held)
-            try:
-                led = self._led(self.point, efforts)
-                now = self._size([p.data[:, :, 0] - _response(p.along, e) for p, e in zip(led, efforts, strict=True)])
-            except (SimulationError, np.linalg.LinAlgError):
-                now = np.inf
-            if now > missed:
-                step /= 2
-                continue
-            power, pieces, missed = power - step, led, now
-        return pieces
-
-    def _followed(
-        self, latent: Latent, pieces: list[Piece]
-    ) -> tuple[dict[str, float], list[Piece], np.ndarray]:  # fmt: skip
-        """(parameters, linear models, estimate of the parameters in units of belief) once these have followed."""
-        told, point = evidence(thinned_all(pieces), latent), self.point
-        while True:
-            trial = self.point | _values(self.free, self.sigma, told.mean[0])
-            try:
-                led = self._led(trial, acting(pieces, latent, told.mean[0]))
-            except SimulationError:
-                return point, pieces, told.mean[0]
-            now = evidence(thinned_all(led), latent)
-            if not now.log[0] > told.log[0] + 1.0:  # nat: less is nothing
-                return point, pieces, told.mean[0]
-            told, point, pieces = now, trial, led
 
     def beside(self, locator: Locator, site: Site) -> Locator:
         """Itself, where efforts are looked for beside the one that `locator` found at a place, or in a reading."""
@@ -264,27 +202,8 @@ class Locator:
         there.colour = (self.colour or none).beside(locator.latent(site))
         return there
 
-    def guided(self, site: Site) -> Guided:
-        """The model led along the data by the effort at a place, linearised anew about the run that it gives.
 
-        The effort alone leads it, from parameters as they are. Led by both, parameters go where no machine has
-        them, since an effort that jumps costs by its prior what an inertia that jumps with it does not; what is then
-        left for a law is the effort beside a wrong machine. They follow while the evidence about the runs so led rises.
-        """
-        latent = self.latent(site)
-        point, pieces, mean = self._followed(latent, self._nearer(latent))
-        efforts = courses(pieces, latent, mean)
-        site.effort = {
-            r.name: (r.time, e, s) for r, (e, s) in zip(self.case.fit, efforts, strict=True)
-        }  # fmt: skip
-        return Guided(point, pieces, [e for e, _ in efforts], mean, latent)
-
-
-def _response(along: Along, efforts: Sequence[tuple[int, np.ndarray]]) -> np.ndarray:
+def response(along: Along, efforts: Sequence[tuple[int, np.ndarray]]) -> np.ndarray:
     """(n, y) outputs to efforts (column, course), to first order."""
     answers = (along.response(np.array([c]), effort[:, None], hold=True)[:, :, 0] for c, effort in efforts)
     return sum(answers, np.zeros(along.read.shape[:2]))
-
-
-def _values(free: list[Free], sigma: np.ndarray, mean: np.ndarray) -> dict[str, float]:
-    return {f.name: f.clip(f.centre + s * m) for f, s, m in zip(free, sigma, mean, strict=True)}

@@ -8,6 +8,7 @@ import numpy as np
 
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.efforts.find import places_of
+from lacuna.discovery.efforts.guide import guide
 from lacuna.discovery.efforts.laws.offered import offered_at, unknowns
 from lacuna.discovery.steps import fitted
 
@@ -82,7 +83,7 @@ def test_a_law_may_be_of_what_stands_upstream_of_the_effort(tmp_path: Path) -> N
     along = locator.pieces[0].along
     changed = {n for k, n in enumerate(unknowns(locator)) if along.answering[k, site.place.columns[0]]}
     assert changed == {"f", "der(w)", "der(v)"}
-    regression, _ = offered_at(locator, site.place, locator.guided(site))
+    regression, _ = offered_at(locator, site.place, guide(locator, site))
     assert {"gas", "vy", "y"} <= {v.reading for v in regression.place.variables}
 
 
@@ -106,6 +107,6 @@ def test_what_is_protected_in_a_component_is_no_variable_of_a_law(tmp_path: Path
     start = fitted(load(folder), lambda text: None)
     found = places_of(start.case, start.amendment, start.base, start.case.library())
     site = next(s for s in found.sites if s.place is not None)
-    regression, _ = offered_at(found.locator, site.place, found.locator.guided(site))
+    regression, _ = offered_at(found.locator, site.place, guide(found.locator, site))
     read = {v.reading for v in regression.place.variables}
     assert "strut.y" in read and not any("strut.gas" in r or "strut.f" in r for r in read)

@@ -14,6 +14,7 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.catalogue import read as read_catalogue
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.find import located
+from lacuna.discovery.efforts.guide import guide
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.places.copied import copied, right_side
 from lacuna.discovery.efforts.places.reading import read
@@ -126,7 +127,7 @@ def test_a_coefficient_that_varies_is_offered_where_a_fit_without_it_ran_away(tm
     locator = located(case, result.amendment, result.base, case.library())
     site = next(s for s in locator.ranked() if s.place is not None)
     assert site.location == "Tw"
-    best = next(proposals(locator, site, locator.guided(site), 3))[0].law
+    best = next(proposals(locator, site, guide(locator, site), 3))[0].law
     assert best.site.place.label == "R"
     assert {v.name for v in best.references()} == {"Tw"}
 
@@ -140,7 +141,7 @@ def test_what_one_balance_gains_and_another_loses_is_one_place(tmp_path: Path) -
     locator = located(case, result.amendment, result.base, case.library())
     efforts = [s for s in locator.ranked() if s.place is not None]
     assert efforts[0].place.sites[0].kind == "exchange" and efforts[0].gain > efforts[1].gain + 100.0
-    proposal = next(proposals(locator, efforts[0], locator.guided(efforts[0]), 1))[0]
+    proposal = next(proposals(locator, efforts[0], guide(locator, efforts[0]), 1))[0]
     driving = next(v for v in proposal.law.references())
     assert (driving.name, driving.minus) == ("h1", "h2")
     assert proposal.start["c_1"] / driving.size == pytest.approx(-6e-4, rel=0.05)
@@ -183,7 +184,7 @@ def test_a_parameter_that_varies_is_one_place_in_all_its_equations(tmp_path: Pat
     locator = located(case, result.amendment, result.base, case.library())
     site = next(s for s in locator.ranked() if s.place is not None)
     assert (site.location, site.place.unit) == ("k", "V.s/rad")
-    best = next(proposals(locator, site, locator.guided(site), 1))[0]
+    best = next(proposals(locator, site, guide(locator, site), 1))[0]
     assert {v.name for v in best.law.references()} == {"i"}
     assert best.law.form(best.start) == "motor.saturation"
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from lacuna.discovery.case.cases import Case, load
+from lacuna.discovery.efforts.guide import guide
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.places.opened import opened
@@ -66,7 +67,7 @@ def test_a_late_input_is_told_as_one(plate: Case) -> None:
     locator = Locator(plate, opened(plate, told.amendment, plate.library(), ["C", "G"]), told.base)
     site = next(s for s in locator.ranked() if s.place is not None)
     assert site.place.named("P") and site.place.named("T")
-    guided = locator.guided(site)
+    guided = guide(locator, site)
     best, *others = next(proposals(locator, site, guided, 3))
     assert not any("delay(" in p.law.text() or "onset(" in p.law.text() for p in others)
     assert best.law.site.location == "P"

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from lacuna.discovery.case.cases import load
+from lacuna.discovery.efforts.guide import guide
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.places.opened import opened
@@ -68,6 +69,6 @@ def test_a_law_is_in_the_quantity_in_which_it_is_short(vessel: Path) -> None:
     locator = Locator(case, opened(case, told.amendment, case.library(), ["C", "k", "g"]), base)
     (site,) = [s for s in locator.ranked() if s.place is not None]
     assert site.place.other[0].sites[0].label == "u"
-    best = next(proposals(locator, site, locator.guided(site), 1))[0].law
+    best = next(proposals(locator, site, guide(locator, site), 1))[0].law
     assert best.site.place.label == best.site.location == "u"
     assert {v.name for v in best.references()} == {"u"}

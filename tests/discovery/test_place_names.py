@@ -12,6 +12,7 @@ from lacuna.codegen.library.search_path import search_path
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.places import read as structure_of
 from lacuna.discovery.efforts.find import places_of
+from lacuna.discovery.efforts.guide import guide
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.places.opened import opened
@@ -130,7 +131,7 @@ def test_a_state_of_what_was_added_before_gives_no_place_its_name(tmp_path: Path
     told = fitted(case, lambda text: None)
     locator = Locator(case, opened(case, told.amendment, case.library(), ["m", "b", "k"]), told.base)
     site = next(s for s in locator.ranked() if s.location == "v")
-    own = next(proposals(locator, site, locator.guided(site), 3))[0].law.site
+    own = next(proposals(locator, site, guide(locator, site), 3))[0].law.site
     pull = next(v.scaled for v in own.variables if v.name == "F")
     law = Law(own, (Group((f"({pull} - lag({pull}, {{tau}}))",), (Shape("tau", "s", 0.05, 0.005, 0.5),)),))
     late = fitted_law(case, told.amendment, told.base, law, {"c_1": -1.0, "tau_1": 0.05})

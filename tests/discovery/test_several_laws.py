@@ -17,6 +17,7 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.catalogue.places import read as read_structure
 from lacuna.discovery.efforts.find import Found
+from lacuna.discovery.efforts.guide import guide
 from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, finite, table
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
@@ -74,7 +75,7 @@ def test_a_law_is_screened_beside_an_effort_at_another_place(tmp_path: Path) -> 
     upper = next(place for place in pair if place.site.location == "upper")
     assert all({v.name for v in proposal.law.references()} == {"upper"} for proposal in next(upper.offered))
     alone = locator.ranked()[0]
-    ones = [{v.name for v in p.law.references()} for p in next(proposals(locator, alone, locator.guided(alone), 3))]
+    ones = [{v.name for v in p.law.references()} for p in next(proposals(locator, alone, guide(locator, alone), 3))]
     assert "q" in ones[0] and {"upper"} in ones  # that of the state whose balance it is goes to the fits, too
 
 

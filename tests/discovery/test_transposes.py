@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from lacuna.discovery.efforts.guide import Guided
 from lacuna.discovery.efforts.latent.chains import Latent, Piece
 from lacuna.discovery.efforts.latent.smoother import Whitener
 from lacuna.discovery.efforts.latent.thinned import thinned
 from lacuna.discovery.efforts.laws.regression import BLOCK, DISCREPANCIES, Regression
-from lacuna.discovery.efforts.located import Guided
 from lacuna.discovery.efforts.places.sites import Site as Place
 from lacuna.discovery.law.law import Site
 from lacuna.discovery.law.law_terms import Group, Variable

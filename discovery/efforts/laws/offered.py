@@ -9,12 +9,13 @@ import re
 import numpy as np
 
 from lacuna.codegen.units.inference import SECOND
+from lacuna.discovery.efforts.guide import Guided
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws.regression import Regression
 from lacuna.discovery.efforts.laws.terms import counts, groups, saturating
 from lacuna.discovery.efforts.laws.variables import variables
 from lacuna.discovery.efforts.laws.written import written_differences
-from lacuna.discovery.efforts.located import Guided, Locator
+from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.places import sites
 from lacuna.discovery.efforts.places.families import is_shared, meant
 from lacuna.discovery.efforts.places.place import Place

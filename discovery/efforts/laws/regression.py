@@ -13,9 +13,9 @@ from operator import itemgetter
 
 import numpy as np
 
+from lacuna.discovery.efforts.guide import Guided
 from lacuna.discovery.efforts.latent.chains import Piece
 from lacuna.discovery.efforts.laws.metric import Bases, Metric, least_squares
-from lacuna.discovery.efforts.located import Guided
 from lacuna.discovery.fit import time_limit
 from lacuna.discovery.law.law import Law, Site
 from lacuna.discovery.law.law_terms import Group

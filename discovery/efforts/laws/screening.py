@@ -7,9 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from lacuna.discovery.efforts.guide import Guided
 from lacuna.discovery.efforts.laws.offered import is_coefficient, offered_at, read_by, unknowns
 from lacuna.discovery.efforts.laws.regression import FURTHER, Regression
-from lacuna.discovery.efforts.located import Guided, Locator, Site
+from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.places.place import Place
 from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law_screen import Proposal

@@ -16,6 +16,7 @@ import numpy as np
 from lacuna.discovery.catalogue.attachment import values_of
 from lacuna.discovery.catalogue.trace import left, looking
 from lacuna.discovery.efforts.find import TRIED, Found, alike, simplest
+from lacuna.discovery.efforts.guide import guide
 from lacuna.discovery.efforts.instruments import NATS
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.laws.screening import proposals
@@ -50,7 +51,7 @@ class Place:
 
     def _screened(self) -> Iterator[list[Proposal]]:
         """Laws of one group of terms, the most telling first, then of two; started where the efforts at both lead."""
-        guided = self.locator.guided(self.site)
+        guided = guide(self.locator, self.site)
         for offered in proposals(self.locator, self.site, guided, TRIED, strained=False):
             for proposal in offered:
                 proposal.point = guided.point
