@@ -58,7 +58,7 @@ def _nearer(locator: Locator, latent: Latent) -> list[Piece]:
     to first order may starve a culture, or stall a rotor, when it acts."""
     held = np.array([locator.point[f.name] - f.centre for f in locator.free]) / locator.sigma
     pieces, level, power, step = locator.pieces, _level(locator), 1.0, 1.0
-    missed, efforts = locator.size([p.data[:, :, 0] for p in pieces]), None
+    missed, efforts = _missed(locator, pieces, [[] for _ in pieces]), None
     for _ in range(RUNS):
         coarse = [replace(p, noise=locator.noise * level**power) for p in pieces]
         trial = _towards(efforts, acting(coarse, latent, held), step)
@@ -111,8 +111,15 @@ def _led(locator: Locator, point: dict[str, float], efforts: Efforts) -> list[Pi
 
 
 def _missed(locator: Locator, led: Sequence[Piece], efforts: Efforts) -> float:
-    """What runs that efforts lead leave of the data, in units of noise."""
-    return locator.size([p.data[:, :, 0] - response(p.along, e) for p, e in zip(led, efforts, strict=True)])
+    """What runs that efforts lead leave of the data, in units of noise, once parameters have taken what is theirs to
+    first order: a winder that drifts from where it was says nothing of its rope."""
+    left = np.concatenate([p.data[:, :, 0] - response(p.along, e) for p, e in zip(led, efforts, strict=True)])
+    slopes = np.concatenate([p.data[:, :, 1:] for p in led])
+    known = np.isfinite(left)
+    noise = np.broadcast_to(locator.noise, left.shape)[known]
+    rows = np.vstack([slopes[known] / noise[:, None], np.eye(slopes.shape[2])])
+    aim = np.concatenate([left[known] / noise, np.zeros(slopes.shape[2])])
+    return float(np.linalg.norm(aim - rows @ np.linalg.lstsq(rows, aim, rcond=None)[0]) / np.sqrt(known.sum()))
 
 
 def _level(locator: Locator) -> np.ndarray:
