@@ -120,6 +120,7 @@ class Comprehension:
     span: Span
     body: Expression
     iterators: list[Iterator]
+    braces: bool = False  # {e for i in r}: an array, whatever it is an argument of
 
 
 @dataclass(slots=True, eq=False)

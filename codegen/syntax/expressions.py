@@ -268,7 +268,8 @@ class ExpressionParser(ArgumentParser):
         while self.accept(","):
             elements.append(self.maybe_comprehension())
         self.expect("}", "'}' or ','")
-        if isinstance(elements[0], ast.Comprehension) and len(elements) == 1:
+        if isinstance(elements[0], ast.Comprehension) and len(elements) == 1 and not elements[0].braces:
+            elements[0].braces = True
             return elements[0]
         return ast.ArrayLiteral(self.span_from(start), elements)
 

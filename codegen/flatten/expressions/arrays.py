@@ -124,7 +124,8 @@ def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callab
                 return (ex.logical_and if str(e.function) == "min" else ex.logical_or)(*arguments)
             return join(*arguments)
         values = _array(arguments[0], e)
-        own = values.shape[len(e.args[0].iterators) :] if isinstance(e.args[0], ast.Comprehension) else ()
+        bare = isinstance(e.args[0], ast.Comprehension) and not e.args[0].braces
+        own = values.shape[len(e.args[0].iterators) :] if bare else ()
         if own:
             return _of_arrays(values, own, join, e)
         if holds_records(values) and str(e.function) == "sum":
