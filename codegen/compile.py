@@ -16,6 +16,7 @@ from lacuna.codegen.dae import hybrid
 from lacuna.codegen.dae.discrete import events
 from lacuna.codegen.dae.discrete.discrete_starts import discrete_starts
 from lacuna.codegen.dae.discrete.first_values import first_values
+from lacuna.codegen.dae.discrete.reinits_at_start import reinits_at_start
 from lacuna.codegen.dae.discrete.followers import followers
 from lacuna.codegen.dae.divisions import divisions
 from lacuna.codegen.dae.free_parameters import free_parameters
@@ -91,6 +92,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     split = report.run("initial system", homotopy.split, aliases.model)
     split, delayed = report.run("hybrid", delays.split, split)
     split, carried = report.run("hybrid", transports.split, split)
+    split = report.run("initial system", reinits_at_start, split)
     split = report.run("initial system", first_values, split)
     frozen = report.run("hybrid", hybrid.analyse, split)
     model = report.run("initial system", discrete_starts, frozen.model)

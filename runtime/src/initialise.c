@@ -77,6 +77,21 @@ static bool settles_without_values(rt_session *s) {
          !s->d->roots(m, s->t, m->x, m->xdot, m->v, s->g) && settle_relations(s, false);
 }
 
+/* Start values of discrete variables that `when initial()` replaces are none that the equations need to have a solution
+ * with: what it sets comes first then. It is set again with the solution, from the same values before the start. */
+static bool sets_discrete_first(rt_session *s) {
+  mdl_data *m = &s->data;
+  const size_t d_size = (size_t)s->d->n_d * sizeof *m->d;
+  mdl_failure failure = m->failure;
+  memcpy(s->d_swept, m->d, d_size);
+  memcpy(s->when_before, m->when, (size_t)s->d->n_when);
+  memcpy(s->x_swept, m->x, (size_t)s->d->n_x * sizeof *m->x);
+  bool moved = !s->d->event(m, s->t, s->x_swept, m->xdot, m->v) && memcmp(m->d, s->d_swept, d_size);
+  memcpy(m->when, s->when_before, (size_t)s->d->n_when);
+  m->failure = failure;
+  return moved;
+}
+
 static rt_status fail_initialisation(rt_session *s) {
   rt_fail_model(s, s->t, "solving the initial equations");
   return s->failure.status = RT_INITIALISATION;
@@ -164,7 +179,10 @@ static rt_status solve_initial_equations(rt_session *s) {
   for (int i = 0; i < MAX_ITERATIONS; i++) {
     memcpy(m->x, s->x_start, x_size);
     rt_inputs_at(s, s->t);
-    if (solve_initial_system(s)) return fail_initialisation(s);
+    if (solve_initial_system(s)) {
+      if (sets_discrete_first(s)) continue;
+      return fail_initialisation(s);
+    }
     if (!s->n_initial && check_open(s)) return s->failure.status;
     if (rt_delays_start(s) || rt_transports_start(s)) return fail_initialisation(s);
     if (rt_tangent_initial(s, true)) return s->failure.status;
@@ -173,6 +191,7 @@ static rt_status solve_initial_equations(rt_session *s) {
       mdl_failure failure = m->failure;
       if (settles_without_values(s)) continue;
       m->failure = failure;
+      if (sets_discrete_first(s)) continue;
       return fail_initialisation(s);
     }
     if (rt_tangent_initial(s, false)) return s->failure.status;
