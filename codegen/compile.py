@@ -16,8 +16,8 @@ from lacuna.codegen.dae import hybrid
 from lacuna.codegen.dae.discrete import events
 from lacuna.codegen.dae.discrete.discrete_starts import discrete_starts
 from lacuna.codegen.dae.discrete.first_values import first_values
-from lacuna.codegen.dae.discrete.reinits_at_start import reinits_at_start
 from lacuna.codegen.dae.discrete.followers import followers
+from lacuna.codegen.dae.discrete.reinits_at_start import reinits_at_start
 from lacuna.codegen.dae.divisions import divisions
 from lacuna.codegen.dae.free_parameters import free_parameters
 from lacuna.codegen.dae.guards import guard_shapes

@@ -120,9 +120,10 @@ def _results(signature: Signature, arguments: dict[str, Value], e: ast.Call, sco
     known = all(isinstance(a, str) or a.op == "const" for a in items)
     if is_looked_at(scope) and not (known and context.library.foreign_package(cls.span.file)):
         check_body(signature, arguments, context, e.span)
-    makes_events = _makes_events(cls)
-    if known or (context.call_depth < MAX_INLINE_DEPTH and (makes_events or not _has_events(items))):
-        context.call_depth += 1
+    makes_events = signature.makes_events
+    _refuse_endless(cls, e, scope)
+    if known or (len(context.calls) < MAX_INLINE_DEPTH and (makes_events or not _has_events(items))):
+        context.calls.append((cls.path, scope.conditional))
         try:
             results = interpret(signature, arguments, context, e.span)
             if known or makes_events or is_small(results, arguments):
@@ -141,14 +142,24 @@ def _results(signature: Signature, arguments: dict[str, Value], e: ast.Call, sco
             if error.code != "F035" or not scope.conditional or any(isinstance(a, str) for a in items):
                 raise
         finally:
-            context.call_depth -= 1
+            context.calls.pop()
     try:
-        return emitted_call(signature, arguments, context, e.span)
+        with context.nothing_inlined():
+            return emitted_call(signature, arguments, context, e.span)
     except Diagnostic as error:
         given = counts_evaluated(arguments, scope, e.span)
         if error.code != "F036" or scope.in_function or given == arguments:
             raise
         return _results(signature, given, e, scope)  # parameters that decide how far it goes become structural
+
+
+def _refuse_endless(cls: ast.Class, e: ast.Call, scope: Scope) -> None:
+    """Raises AtRunTime for a function that calls itself where that is not decided at translation: inlined, it has no
+    end."""
+    calls = scope.context.calls
+    first = next((k for k, (path, _) in enumerate(calls) if path == cls.path), None)
+    if first is not None and (scope.conditional or any(undecided for _, undecided in calls[first + 1 :])):
+        raise AtRunTime("a recursion", e.span)
 
 
 def written_arguments(
@@ -285,14 +296,3 @@ def _without_events(value: Value) -> Value:
         fields = {name: _without_events(field) for name, field in value.fields.items()}
         return Record(value.name, fields, value.cls)
     return quiet(value)
-
-
-def _makes_events(cls: ast.Class) -> bool:
-    """annotation(GenerateEvents = true): relations of the function are as those of the model (12.8.3, 18.3)."""
-    arguments = cls.annotation.arguments if cls.annotation else ()
-    said = {a.name: a.modification.value for a in arguments if a.name in ("GenerateEvents", "Inline")}
-    said = {name: v.value for name, v in said.items() if isinstance(v, ast.Literal)}
-    if said.get("GenerateEvents") is True and said.get("Inline") is False:
-        hint = "remove one of them"
-        raise Diagnostic("R066", f"{cls.name} has GenerateEvents = true and Inline = false (12.8.3)", cls.span, hint)
-    return said.get("GenerateEvents") is True

@@ -94,6 +94,19 @@ class Signature:
         return frozenset(used & names)
 
     @cached_property
+    def makes_events(self) -> bool:
+        """annotation(GenerateEvents = true): relations of the function are as those of the model (12.8.3, 18.3)."""
+        cls = self.cls
+        arguments = cls.annotation.arguments if cls.annotation else ()
+        said = {a.name: a.modification.value for a in arguments if a.name in ("GenerateEvents", "Inline")}
+        said = {name: v.value for name, v in said.items() if isinstance(v, ast.Literal)}
+        if said.get("GenerateEvents") is True and said.get("Inline") is False:
+            hint = "remove one of them"
+            message = f"{cls.name} has GenerateEvents = true and Inline = false (12.8.3)"
+            raise Diagnostic("R066", message, cls.span, hint)
+        return said.get("GenerateEvents") is True
+
+    @cached_property
     def in_order(self) -> list[Local]:
         """Everything declared, each after what its value and its sizes use, in order of declaration else (12.4.4)."""
         used = {d.name: self._uses(d) for d in self.locals}

@@ -56,7 +56,7 @@ class Context:
     bodies: list[Body] = field(default_factory=list)  # of functions, for the unit check
     body: Body | None = None  # the one that is being run for it
     derivatives: dict[str, list[DerivativeRule]] = field(default_factory=dict)  # of annotated values, by their keys
-    call_depth: int = 0
+    calls: list[tuple[str, bool]] = field(default_factory=list)  # being inlined: of which function, if undecided
     elements: int = 0
     files: dict[str, str] = field(default_factory=dict)
     errors: list[Diagnostic] = field(default_factory=list)
@@ -84,6 +84,15 @@ class Context:
                 self.errors.append(error)
             if len(self.errors) >= MAX_ERRORS or self.elements > MAX_ELEMENTS:
                 self.finish(whole=False)
+
+    @contextmanager
+    def nothing_inlined(self) -> Iterator[None]:
+        """While a function is written that stays one: it may be called by those that it calls."""
+        inlined, self.calls = self.calls, []
+        try:
+            yield
+        finally:
+            self.calls = inlined
 
     def spend(self, count: int, span: Span) -> None:
         """Count array elements and passes of loops. Raises F037 for a model out of all proportion."""
