@@ -18,7 +18,7 @@ from lacuna.runtime import SimulationError
 
 Efforts = list[list[tuple[int, np.ndarray]]]  # of each recording: column of the drive, course
 
-RUNS = 12  # of the model at most: a step is damped to a hundredth by then, or the data are met
+RUNS = 20  # of the model at most: those of a step to a thousandth and back to a whole one
 
 
 @dataclass
@@ -70,8 +70,9 @@ def _nearer(locator: Locator, latent: Latent) -> list[Piece]:
         if now > missed:
             step /= 2
             continue
+        done = step == 1.0 and power < 1.0 and now > 0.5 * missed  # a whole step that does not halve it is the last
         pieces, missed, efforts = led, now, trial
-        if step == 1.0 and power < 1.0:
+        if done:
             break
         power, step = 0.5 if step == 1.0 else power, min(1.0, 2 * step)
     return pieces

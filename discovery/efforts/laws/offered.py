@@ -13,7 +13,7 @@ from lacuna.discovery.efforts.guide import Guided
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws.regression import Regression
 from lacuna.discovery.efforts.laws.terms import counts, groups, saturating
-from lacuna.discovery.efforts.laws.variables import variables
+from lacuna.discovery.efforts.laws.variables import MOVES, variables
 from lacuna.discovery.efforts.laws.written import written_differences
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.places import sites
@@ -44,7 +44,7 @@ def offered_at(locator: Locator, place: Place, guided: Guided) -> tuple[Regressi
     interval, duration = float(np.median(np.diff(longest))), float(longest[-1] - longest[0])
     aliases = locator.opened.linear.prepared.aliases
     sent = {aliases.get(end, (end, 1))[0] for s in place.sites if s.kind == "signal" for end in s.ends}
-    found = [replace(v, kind="input") if v.name in sent else v for v in found]
+    found = [replace(v, kind="input") if _is_sent(v, sent, along) else v for v in found]
     varies = place.sites[0].kind in ("parameter", "input")
     if varies:  # it holds nothing at rest
         found = [replace(v, sticks=False) for v in found]
@@ -62,6 +62,14 @@ def offered_at(locator: Locator, place: Place, guided: Guided) -> tuple[Regressi
     where = LawSite(place.sites[0], place.location, place.unit, tuple(found), counts(found, terms))
     regression = Regression(guided, where, place.columns)
     return regression, regression.add(terms)
+
+
+def _is_sent(v: Variable, ends: set[str], along: Sequence[Along]) -> bool:
+    """Whether a variable is what stands at an end of a signal, whatever equations may say of it in between."""
+    if v.name in ends or v.minus:
+        return v.name in ends
+    near = MOVES * v.size
+    return any(all(np.allclose(a.values[v.name], a.values.get(end, np.inf), 0.0, near) for a in along) for end in ends)
 
 
 def _of_all(along: Along, members: Sequence[str]) -> Along:
