@@ -16,7 +16,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.catalogue.amend import Amendment
-from lacuna.discovery.catalogue.trace import looking
+from lacuna.discovery.catalogue.trace import left, looking
 from lacuna.discovery.efforts.guide import Guided, guide
 from lacuna.discovery.efforts.instruments import colour_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
@@ -30,7 +30,7 @@ from lacuna.discovery.fit.lead import joined
 from lacuna.discovery.law.empirical_law import race, simplified, unfitted, varied
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.naming.candidate_fit import SMALL_STEP, nearest
-from lacuna.discovery.naming.comparison import TIE, note_laws, score
+from lacuna.discovery.naming.comparison import TIE, note_laws, said, score
 from lacuna.discovery.naming.race import NEAR
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.runtime import SimulationError
@@ -84,13 +84,18 @@ def add_laws(
     efforts = simplest([s for s in found.sites if s.place is not None and admitted(s)])
     for site in efforts[found.tried : most]:
         enough = found.short and nearly_noise(found.laws[0].fit)
-        told = efforts[0].gain - site.gain > INDIFFERENT and not alike(site, efforts[0])
-        if told and (enough or site.gain < WORTH * efforts[0].gain):
+        behind = efforts[0].gain - site.gain > INDIFFERENT
+        if behind and not alike(site, efforts[0]) and (enough or site.gain < WORTH * efforts[0].gain):
             break
         found.tried += 1
         looking(f"a law at {site.location}")
         proposal, single = _law_at(case, amendment, base, found.locator, site, progress)
-        _put(found.laws, proposal and proposal.candidate, base)
+        if behind and proposal and _terms(proposal) > 1 and found.laws and settled(found.laws[0].fit):
+            left(
+                said(proposal.candidate), "comparison", "no shorter than one that leaves noise where more is explained"
+            )
+        else:
+            _put(found.laws, proposal and proposal.candidate, base)
         _put(found.single, single, base)
         if proposal is not None and found.laws[0] is proposal.candidate:
             found.short = _terms(proposal) == 1
