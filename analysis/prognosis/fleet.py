@@ -20,7 +20,7 @@ import pyarrow.parquet as pq
 
 from lacuna.analysis.campaign.tasks import callers_script_left_out, finished
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.files import has_part, write_part
+from lacuna.analysis.files import has_part, read_part, write_part
 from lacuna.analysis.prognosis.doubts import UNITS, doubts_of
 from lacuna.analysis.prognosis.filter.bank import Bank
 from lacuna.analysis.prognosis.forecast import Forecast, Limits, Options, fleet_prior, forecasts
@@ -144,7 +144,7 @@ def run_fleet(
         done += 1
         if progress:
             progress(done, len(pieces))
-    whole = pa.concat_tables([pq.read_table(path) for path in paths])
+    whole = pa.concat_tables([read_part(path) for path in paths])
     whole = by_risk(whole).drop_columns("order")
     with whole_file(folder / "fleet.parquet") as partial:
         pq.write_table(whole, partial)

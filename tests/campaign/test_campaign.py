@@ -218,3 +218,16 @@ def test_a_sweep_computes_a_damaged_part_again(undisturbed, tmp_path):
     for part in (tmp_path / "parts").iterdir():
         part.write_bytes(b"PAR1")
     assert run_campaign(work, few, tmp_path, chunk=4).read_bytes() == first
+
+
+def test_a_part_of_another_place_or_program_is_computed_again(undisturbed, tmp_path):
+    work, points = short_test(tmp_path)
+    few = {name: values[:8] for name, values in points.items()}
+    first = run_campaign(work, few, tmp_path, chunk=4).read_bytes()
+    one, other = sorted((tmp_path / "parts").iterdir())
+    other.write_bytes(one.read_bytes())
+    assert run_campaign(work, few, tmp_path, chunk=4).read_bytes() == first
+    rows = pq.read_table(one)
+    failure = rows.schema.get_field_index("failure")
+    pq.write_table(rows.set_column(failure, "failure", pa.nulls(len(rows))).replace_schema_metadata(), one)
+    assert run_campaign(work, few, tmp_path, chunk=4).read_bytes() == first
