@@ -16,6 +16,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
+import lacuna
 from lacuna.analysis.campaign.points import chunks, sobol_points
 from lacuna.analysis.campaign.run import run_campaign
 from lacuna.analysis.campaign.work import Work
@@ -231,3 +232,19 @@ def test_a_part_of_another_place_or_program_is_computed_again(undisturbed, tmp_p
     failure = rows.schema.get_field_index("failure")
     pq.write_table(rows.set_column(failure, "failure", pa.nulls(len(rows))).replace_schema_metadata(), one)
     assert run_campaign(work, few, tmp_path, chunk=4).read_bytes() == first
+
+
+def settings_with(folder: Path, *replacements: tuple[str, str]) -> Path:
+    text = PAPER.read_text(encoding="utf-8")
+    for old, new in [("duration = 1.0", "duration = 0.25"), ("after = 0.3", "after = 0.1"), *replacements]:
+        assert old in text, old
+        text = text.replace(old, new)
+    path = folder / "own.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_sweep_over_a_parameter_that_is_headed_otherwise_has_its_page(tmp_path):
+    path = settings_with(tmp_path, ('symbol = "zeta"', 'symbol = "gap"'))
+    found = lacuna.sweep(points=2, settings=path, out=tmp_path / "out")
+    assert found.report.exists() and found["zeta"].min() >= 0
