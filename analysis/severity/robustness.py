@@ -123,7 +123,7 @@ class _Study:
             values |= moved(self.plant, nuisance, float(number))
         names = self.stranger.get("parameters", [])
         for name, factor in zip(names, self.stranger.get("factor", []), strict=False):
-            values[name] = factor * values.get(name, self.plant.declared(name))
+            values[name] = factor * values.get(name, self.plant.undisturbed(name))
         return values | dict(zip(names, self.stranger.get("value", []), strict=False))
 
 
