@@ -60,7 +60,7 @@ def run_tests(
     `stranger`: the tests are of an actuator that is not the map's, an entry of the settings' [[strangers]].
     """
     settings = prepared.settings
-    nuisances = settings.raw.get("nuisances", [])
+    nuisances = settings.nuisances
     plant = plant.with_solver(settings.table("assessment")["solver"])
     design = qmc.Sobol(1 + len(nuisances), seed=SEED).random(count)
     study = _Study(plant, prepared, Chain(settings), nuisances, stranger or {})
