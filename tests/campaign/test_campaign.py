@@ -7,9 +7,11 @@ import json
 import os
 from pathlib import Path
 import signal
+import socket
 import subprocess
 import sys
 import time
+from urllib.parse import urlsplit
 
 import numpy as np
 import pyarrow as pa
@@ -17,6 +19,7 @@ import pyarrow.parquet as pq
 import pytest
 
 import lacuna
+from lacuna.analysis.campaign.clients import client_of
 from lacuna.analysis.campaign.points import chunks, sobol_points
 from lacuna.analysis.campaign.run import run_campaign
 from lacuna.analysis.campaign.work import Work
@@ -107,6 +110,25 @@ def test_no_scheduler_is_said_in_a_sentence(tmp_path):
     work, points = short_test(tmp_path)
     with pytest.raises(AnalysisError, match="no Dask scheduler answers at"):
         run_campaign(work, points, tmp_path, scheduler="tcp://127.0.0.1:1")
+
+
+@pytest.mark.parametrize("processes", [False, True])
+def test_workers_of_our_own_are_at_any_free_port_and_for_this_machine_alone(processes, recwarn):
+    """Dask's pages were at port 8787 of every network, with a warning where another sweep had it."""
+    local = {"n_workers": 1, "threads_per_worker": 1, "processes": processes}
+    with client_of(None, **local) as one, client_of(None, **local) as other:
+        for client in (one, other):
+            pages = [worker["services"]["dashboard"] for worker in client.scheduler_info()["workers"].values()]
+            pages += [urlsplit(client.dashboard_link).port]
+            assert len(pages) == 2 and all(map(_refused_elsewhere, pages))
+    assert not [w for w in recwarn if "already in use" in str(w.message)]
+
+
+def _refused_elsewhere(port: int) -> bool:
+    """Whether nobody answers at an address of this machine other than the one that it has for itself."""
+    with socket.socket() as one:
+        one.settimeout(1.0)
+        return one.connect_ex(("127.0.0.2", port)) != 0
 
 
 def test_killed_worker_and_killed_client_lose_nothing(undisturbed, tmp_path):
