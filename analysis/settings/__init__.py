@@ -201,6 +201,9 @@ def _check_parameters(settings: Settings) -> None:
     path, fault = settings.path, settings.fault.parameter
     if fault in settings.own_parameters:
         raise AnalysisError(f"{path}: actuator.parameters names {fault}, which the fault sets: take it out")
+    refused, warned = (settings.raw.get("assessment", {}).get(name) for name in ("improbable", "doubtful"))
+    if refused is not None and warned is not None and warned < refused:
+        raise AnalysisError(f"{path}: assessment.doubtful, {warned:g}, is below assessment.improbable, {refused:g}")
     mover: dict[str, str] = {}
     for nuisance in settings.raw.get("nuisances", []):
         for parameter in nuisance["parameters"]:

@@ -22,7 +22,7 @@ class Rule:
     holds: Callable[[Any], bool]
 
 
-_SYMBOL = re.compile(r"\w[\w.-]*")  # part of the name of a folder
+_SYMBOL = re.compile(r"(?!rms_|peak_|speed_mean$)\w[\w.-]*")  # part of a folder's name, and a head beside features
 
 
 def _number(what: str, holds: Callable[[float], bool]) -> Rule:
@@ -39,7 +39,10 @@ def _several(rule: Rule) -> Rule:
 
 TEXT = Rule("a text", lambda value: isinstance(value, str))
 NAME = Rule("the name of something, a text", lambda value: isinstance(value, str) and bool(value.strip()))
-SYMBOL = Rule("a name of letters, digits, _ . and -", lambda v: isinstance(v, str) and bool(_SYMBOL.fullmatch(v)))
+SYMBOL = Rule(
+    "a name of letters, digits, _ . and - other than those of features",
+    lambda value: isinstance(value, str) and bool(_SYMBOL.fullmatch(value)),
+)
 NUMBER = _number("", lambda value: True)
 POSITIVE = _number(" above zero", lambda value: value > 0)
 NOT_NEGATIVE = _number(" of zero or more", lambda value: value >= 0)

@@ -40,6 +40,12 @@ def moved(plant: Plant, nuisance: dict, z):
     return {name: plant.undisturbed(name) * np.exp(z * sigma) for name, sigma in spread}
 
 
+def require_nuisances(plant: Plant, settings: Settings) -> None:
+    """Raises AnalysisError, before anything is simulated, where one moves what it cannot."""
+    for nuisance in settings.nuisances:
+        moved(plant, nuisance, 0.0)
+
+
 @dataclass(frozen=True)
 class Surroundings:
     """The nuisances and sensors of a test of `plant`; the first nuisance within a share of its range about a level."""

@@ -1,4 +1,4 @@
-"""A sweep by settings of one's own: what nuisances move, what the page reads, and what is no parameter."""
+"""Sweeps and maps by settings of one's own: what nuisances move, what the page reads, and what is no parameter."""
 
 from __future__ import annotations
 
@@ -35,6 +35,20 @@ def test_a_sweep_over_a_parameter_that_is_headed_otherwise_has_its_page(tmp_path
     path = settings_with(tmp_path, ('symbol = "zeta"', 'symbol = "gap"'))
     found = lacuna.sweep(points=2, settings=path, out=tmp_path / "out")
     assert found.report.exists() and found["zeta"].min() >= 0
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('parameter = "zeta"', 'parameter = "tau_c"', "moves tau_c, which is the fault: take it out"),
+        ('parameters = ["V"]', 'parameters = ["VV"]', "has no parameter VV; did you mean V"),
+    ],
+)
+def test_nuisances_that_cannot_be_are_refused_before_a_map_is_drawn(tmp_path, old, new, said):
+    path = settings_with(tmp_path, (old, new))
+    with pytest.raises(AnalysisError, match=said):
+        lacuna.maps(settings=path, out=tmp_path / "out", prepare=True)
+    assert not (tmp_path / "out").exists()
 
 
 HALF = """model Own
