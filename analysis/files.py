@@ -30,21 +30,32 @@ def load_arrays(path: Path, names: Sequence[str]) -> dict[str, np.ndarray]:
         raise AnalysisError(f"{path} is damaged or of another version, prepare the map again: {error}") from None
 
 
+_PART = b"part"  # of a file's metadata: the name that it was written under
+
+
 def write_part(path: Path, table: pa.Table) -> None:
-    """A part of a long computation, with checksums, so that `has_part` notices damage."""
+    """A part of a long computation, with its name and checksums, so that `has_part` notices what happened to it."""
     import pyarrow.parquet as pq
 
     with whole_file(path) as partial:
-        pq.write_table(table, partial, write_page_checksum=True)
+        pq.write_table(table.replace_schema_metadata({_PART: path.name}), partial, write_page_checksum=True)
+
+
+def read_part(path: Path) -> pa.Table:
+    """The table of a part that is there."""
+    import pyarrow.parquet as pq
+
+    return pq.read_table(path).replace_schema_metadata()
 
 
 def has_part(path: Path) -> bool:
-    """Whether a part is there as it was written; a damaged one is as good as none and is computed again."""
+    """Whether a part is there as it was written: what is damaged, or was put there by another program or from another
+    place, is as good as none and is computed again."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
     try:
-        pq.read_table(path, page_checksum_verification=True)
+        table = pq.read_table(path, page_checksum_verification=True)
     except (OSError, pa.ArrowException):
         return False
-    return True
+    return (table.schema.metadata or {}).get(_PART) == path.name.encode()

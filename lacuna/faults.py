@@ -154,15 +154,18 @@ def maps(
     """
     from lacuna.analysis.map.maps import build_map
     from lacuna.analysis.severity.preparation import prepare_assessment
+    from lacuna.analysis.severity.sensitivities import require_nuisances
 
     chosen = _settings(settings)
     plant = _plant(str(actuator or chosen.model), class_name, libraries, chosen)
+    disturbed = plant if actuator or not prepare else _plant(chosen.disturbed_model, "", libraries, chosen)
+    if prepare:
+        require_nuisances(disturbed, chosen)
     folder = Path(out) if out else Path("out/maps") / chosen.path.stem
     tell = counted(f"map of {plant.name}", progress)
     done = build_map(plant, chosen, folder, jobs=jobs, progress=tell, resume=not fresh, figures=figures)
     if prepare:
         (progress or silent)("what the assessment of a recording needs", None)
-        disturbed = plant if actuator else _plant(chosen.disturbed_model, "", libraries, chosen)
         prepare_assessment(disturbed, chosen, done, jobs=jobs)
     return OperatingMap(done, chosen)
 

@@ -73,7 +73,7 @@ def factor_into(declared: str, si: str) -> float:
     unit = parse_unit(declared)
     if _zeros_differ(declared, si) or not same_dimension(declared, si):
         raise UnitError(f"{si} is no {declared}")
-    if _cycles_for_angle(declared, si):
+    if cycles_for_angle(declared, si):
         raise UnitError(f"2 pi lie between them (turns a second are rev/s): {si} is no {declared}")
     return 1.0 / (unit.factor or 1.0)
 
@@ -90,7 +90,7 @@ def same_unit(model: str, column: str) -> bool:
     angles the same."""
     if not model:
         return True
-    if _zeros_differ(model, column) or _cycles_for_angle(model, column):
+    if _zeros_differ(model, column) or cycles_for_angle(model, column):
         return False  # degC and K differ by more than a factor, which is all that a column is converted by
     return parse_unit(model.replace("ohm", "Ohm")).same(parse_unit(column.replace("ohm", "Ohm")))
 
@@ -105,7 +105,7 @@ def _zeros_differ(one: str, other: str) -> bool:
     return ("degC" in one) != ("degC" in other)
 
 
-def _cycles_for_angle(one: str, other: str) -> bool:
+def cycles_for_angle(one: str, other: str) -> bool:
     """Hz and rad/s are both 1/s, and 2 pi lies between them; 1/s itself may be either."""
     return sorted((_counted(one), _counted(other))) == ["angle", "cycles"]
 

@@ -48,10 +48,10 @@ class RecordedInput:
 class Session:
     """A model set up with one solver, to be run again and again: nothing is allocated anew but the results.
 
-    One session serves one thread at a time. `outputs` default to all variables that change with time. Rows are at
-    `output_times`, or every `interval` seconds, or (interval 0) at the end of every step; by default the model's own
-    interval. With `events`, a row before and one after each event is added. `locate_events=False` takes state and
-    time events at the end of the step in which they fall, which is what fixed-step simulations usually do.
+    One session serves one thread at a time, and refuses another. `outputs` default to all variables that change with
+    time. Rows are at `output_times`, or every `interval` seconds, or (interval 0) at the end of every step; by default
+    the model's own interval. With `events`, a row before and one after each event is added. `locate_events=False`
+    takes state and time events at the end of the step in which they fall, as fixed-step simulations usually do.
     A run that takes more than `max_steps`, or does not get through a millionth of its time in `patience` seconds of
     computing (default 60), or does so in steps of which it would take more than 1e10, ends with a failure.
     `atol` is per unit of a variable's nominal value.
@@ -97,10 +97,21 @@ class Session:
         weakref.finalize(self, self._lib.rt_session_free, self._handle)
         self.settings["rtol"], self.settings["atol"] = self._tolerances()
         self._inputs: dict[str, RecordedInput] = {}
+        self._used = threading.Lock()
         self._set_outputs(model.recordable if outputs is None else outputs)
         self._set_grid(output_times, model.interval if interval is None else interval)
         self.set_inputs(inputs or {})
         self._set_sensitivities(sensitivities)
+
+    @contextmanager
+    def _alone(self) -> Iterator[None]:
+        """Raises SimulationError where another thread, or what watches a run, is using the session."""
+        if not self._used.acquire(blocking=False):
+            raise SimulationError("this session is in use: a thread, and what is run within a run, needs its own")
+        try:
+            yield
+        finally:
+            self._used.release()
 
     def _tolerances(self) -> tuple[float, float]:
         """Those in force, given or not."""
@@ -131,6 +142,10 @@ class Session:
     def set_inputs(self, inputs: Mapping[str, RecordedInput | float]) -> None:
         """Drive inputs by recordings or constants; inputs not named keep what they had (at first their start value).
         Integers and Booleans are held between samples, whatever the recording says: nothing lies between them."""
+        with self._alone():
+            self._drive(inputs)
+
+    def _drive(self, inputs: Mapping[str, RecordedInput | float]) -> None:
         for name, given in inputs.items():
             if self._inputs.get(name) is given:
                 continue
@@ -148,6 +163,10 @@ class Session:
     def set_parameters(self, values: Mapping[str, float]) -> None:
         """Take these, and what is declared for all others. Raises SimulationError for one that is not of its type, or
         outside of its bounds."""
+        with self._alone():
+            self._take(values)
+
+    def _take(self, values: Mapping[str, float]) -> None:
         self._assign(self._lib.rt_session_parameters, values, "parameter that may be set", self.model.parameters)
 
     def _assign(self, function, values: Mapping[str, float], what: str, among) -> None:
@@ -174,11 +193,14 @@ class Session:
         A run that fails gives an incomplete Result with `failure`; unknown names and values outside bounds raise
         SimulationError.
         """
+        with self._alone():
+            return self._run(parameters or {}, inputs or {}, initial or {}, start, stop, watch)
+
+    def _run(self, parameters, inputs, initial, start, stop, watch) -> Result:
         model, lib = self.model, self._lib
-        self.set_parameters(parameters or {})
-        self._assign(lib.rt_session_initial, initial or {}, "state", model.states)
-        if inputs:
-            self.set_inputs(inputs)
+        self._take(parameters)
+        self._assign(lib.rt_session_initial, initial, "state", model.states)
+        self._drive(inputs)
         handle = None
         try:
             with _watched(lib, self._handle, watch):

@@ -11,6 +11,8 @@ from distributed import Client, LocalCluster
 
 from lacuna.analysis.errors import AnalysisError
 
+_PAGES = "127.0.0.1:0"  # which Dask serves in any case: at a free port, and to this machine alone
+
 
 @contextmanager
 def client_of(scheduler: str | None, **local: Any) -> Iterator[Client]:
@@ -31,6 +33,8 @@ def client_of(scheduler: str | None, **local: Any) -> Iterator[Client]:
 def _cluster(**local: Any) -> LocalCluster:
     """Its log is silent: what goes wrong is raised."""
     try:
-        return LocalCluster(dashboard_address=None, silence_logs=logging.CRITICAL, **local)
+        return LocalCluster(
+            dashboard_address=_PAGES, worker_dashboard_address=_PAGES, silence_logs=logging.CRITICAL, **local
+        )
     except RuntimeError as error:
         raise error.__cause__ if isinstance(error.__cause__, OSError) else error from None

@@ -10,7 +10,7 @@ import pyarrow.parquet as pq
 
 from lacuna.analysis.campaign.points import Points
 from lacuna.analysis.campaign.work import Work
-from lacuna.analysis.files import has_part, write_part
+from lacuna.analysis.files import has_part, read_part, write_part
 from lacuna.written import whole_file
 
 
@@ -31,9 +31,13 @@ class Parts:
 
     def combine(self, path: Path) -> None:
         """All parts in order as one file, one row group a part: memory holds one part at a time."""
-        with whole_file(path) as partial, pq.ParquetWriter(partial, pq.read_schema(self.paths[0])) as writer:
+        with whole_file(path) as partial, pq.ParquetWriter(partial, _schema(self.paths[0])) as writer:
             for part in self.paths:
-                writer.write_table(pq.read_table(part))
+                writer.write_table(read_part(part))
+
+
+def _schema(part: Path) -> pa.Schema:
+    return pq.read_schema(part).remove_metadata()
 
 
 def _hash(work: Work, piece: Points) -> str:

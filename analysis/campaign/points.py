@@ -18,7 +18,7 @@ def sobol_points(settings: Settings, count: int, plant: Plant, seed: int = 1) ->
     A scrambled Sobol sequence (Owen, J. Complexity 14, 1998), whose first n points are the same for every `count`
     of at least n. Raises AnalysisError where `plant` lacks a parameter of a nuisance.
     """
-    nuisances = settings.raw.get("nuisances", [])
+    nuisances = settings.nuisances
     sequence = qmc.Sobol(1 + len(nuisances), scramble=True, rng=np.random.default_rng(seed))
     unit = sequence.random_base2(max(0, int(np.ceil(np.log2(max(count, 1))))))[:count]
     fault = settings.fault

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 import hashlib
 from pathlib import Path
@@ -46,8 +47,8 @@ class Plant(Protocol):
 
     def run(self, severity: float, **parameters: float) -> Record: ...
 
-    def declared(self, name: str) -> float:
-        """The declared value of a parameter."""
+    def undisturbed(self, name: str) -> float:
+        """The value of a parameter in every test that nothing disturbs."""
         ...
 
     def with_solver(self, solver: str) -> Plant:
@@ -71,9 +72,10 @@ class ModelPlant:
         self._outputs = [*settings.currents, settings.speed, settings.angle]
         self._of_thread = threading.local()
         known = self._model.variables
-        missing = [v + suggestion(v, known) for v in [settings.fault.parameter, *self._outputs] if v not in known]
+        missing = [v + suggestion(v, known) for v in self._outputs if v not in known]
         if missing:
             raise AnalysisError(f"{settings.path}: model {name} has no variable {', nor '.join(missing)}")
+        self._require_parameters([settings.fault.parameter, *settings.own_parameters])
         runtime_hash = hashlib.sha256(runtime_library_path().read_bytes()).hexdigest()
         self.hash = f"{model_hash} {runtime_hash[:16]} {self._solver}"
         self.equations = [
@@ -125,10 +127,22 @@ class ModelPlant:
             counters=dict(result.counters),
         )
 
-    def declared(self, name: str) -> float:
-        """The declared value of a parameter. Raises AnalysisError where the model has none of that name."""
-        parameter = self._model.parameters.get(name)
-        if parameter is None:
-            hint = suggestion(name, self._model.parameters)
-            raise AnalysisError(f"{self._settings.path}: model {self.name} has no parameter {name}{hint}")
-        return parameter.start
+    def undisturbed(self, name: str) -> float:
+        """The value of a parameter in every test that nothing disturbs: the settings', or what the model declares.
+
+        Raises AnalysisError where the model has no parameter of that name that can be set.
+        """
+        self._require_parameters([name])
+        return self._settings.own_parameters.get(name, self._model.parameters[name].start)
+
+    def _require_parameters(self, names: Iterable[str]) -> None:
+        """Of the settings, where they are to have another value."""
+        model, place = self._model, self._settings.path
+        for name in names:
+            if name in model.parameters:
+                continue
+            if name in model.variables and model.variables[name].is_parameter:
+                reason = "cannot be set: it is a constant, or given by other parameters"
+                raise AnalysisError(f"{place}: {name} of model {self.name} {reason}")
+            hint = suggestion(name, model.parameters)
+            raise AnalysisError(f"{place}: model {self.name} has no parameter {name}{hint}")

@@ -20,11 +20,11 @@ import pyarrow.parquet as pq
 
 from lacuna.analysis.campaign.tasks import callers_script_left_out, finished
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.files import has_part, write_part
+from lacuna.analysis.files import has_part, read_part, write_part
 from lacuna.analysis.prognosis.doubts import UNITS, doubts_of
 from lacuna.analysis.prognosis.filter.bank import Bank
 from lacuna.analysis.prognosis.forecast import Forecast, Limits, Options, fleet_prior, forecasts
-from lacuna.analysis.prognosis.history import History
+from lacuna.analysis.prognosis.history import History, refuse_slips
 from lacuna.written import whole_file
 
 CHUNK = 512  # histories: some seconds of work
@@ -35,6 +35,7 @@ Progress = Callable[[int, int], None]
 def histories_of(table: pa.Table, name: str) -> list[History]:
     """Histories of a table that has severities throughout, column by column. Raises AnalysisError as
     `read_histories` does."""
+    refuse_slips(name, table.column_names)
     unit = next((u for u in UNITS if u in table.column_names and not table[u].null_count), None)
     missing = [c for c in ("actuator", "severity", "low", "high") if c not in table.column_names]
     if missing or unit is None:
@@ -144,7 +145,7 @@ def run_fleet(
         done += 1
         if progress:
             progress(done, len(pieces))
-    whole = pa.concat_tables([pq.read_table(path) for path in paths])
+    whole = pa.concat_tables([read_part(path) for path in paths])
     whole = by_risk(whole).drop_columns("order")
     with whole_file(folder / "fleet.parquet") as partial:
         pq.write_table(whole, partial)

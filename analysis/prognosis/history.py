@@ -23,6 +23,7 @@ from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis.doubts import UNITS, doubts_of
 from lacuna.given import GREATEST, require_file, text_of
 from lacuna.rows import rows_of
+from lacuna.suggest import nearest, question
 from lacuna.texts import decimal
 
 if TYPE_CHECKING:
@@ -30,6 +31,9 @@ if TYPE_CHECKING:
 
 EVENTS = ("", "replaced")
 SEPARATORS = {";": "semicolon", "\t": "tab"}  # that other programs write
+COLUMNS = (
+    "actuator", *UNITS, "severity", "low", "high", "event", "recording", "fault", "diagnosis",
+)  # fmt: skip
 FILES = ("history.csv", "history.parquet")
 TWO_SIDED_95 = 1.959964
 
@@ -72,6 +76,7 @@ def read_histories(
     rows = _table(file)
     if not rows:
         raise AnalysisError(f"{file}: the history has no rows")
+    refuse_slips(file, rows[0][1])
     counted = _unit(file, rows, unit)
     groups: dict[tuple[str, str], _Group] = {}
     for number, row in rows:
@@ -94,6 +99,14 @@ def _file(path: Path) -> Path:
         if (path / name).exists():
             return path / name
     raise AnalysisError(f"{path}: no {' or '.join(FILES)} there")
+
+
+def refuse_slips(file: Path | str, names: Iterable[str]) -> None:
+    """A column of a table may be called as it likes, but not nearly as one that is missing: that would be lost."""
+    missing = [name for name in COLUMNS if name not in names]
+    for name in names:
+        if name not in COLUMNS and (meant := nearest(str(name), missing)):
+            raise AnalysisError(f"{file}: column {name} is not known; {question(meant)} (else call it another way)")
 
 
 def parquet_table(file: Path) -> pa.Table:

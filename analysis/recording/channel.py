@@ -20,7 +20,7 @@ class RecordingError(AnalysisError):
     """A file that is no recording, or is damaged; the message says which, where and why."""
 
 
-_EXACT = 2**53  # whole numbers up to which a Real holds every one
+EXACT = 2**53  # whole numbers up to which a Real holds every one
 
 
 @dataclass(frozen=True)
@@ -66,31 +66,31 @@ class Recorded:
 
 
 def from_table(
-    path: Path, header: Sequence[str], units: Sequence[str], values: np.ndarray, notes: Sequence[str] = ()
-) -> Recorded:
-    """Channels that share one time, from the columns [columns, rows] of a table of which one is time.
-
-    Raises RecordingError where none is, or two columns have one name.
+    path: Path, header: Sequence[str], units: Sequence[str], values: np.ndarray, notes: Sequence[str] = (),
+    others: Sequence[str] = (),
+) -> Recorded:  # fmt: skip
+    """Channels that share one time, from the columns [columns, rows] of a table of which one is time; `others` of its
+    columns are left out. Raises RecordingError where none is time, or two columns have one name.
     """
     if not len(header) == len(units) == len(values):
         raise RecordingError(f"{path}: {len(header)} names and {len(units)} units for {len(values)} columns")
     _refuse_namesakes(path, header)
     heads = [read_head(text, unit) for text, unit in zip(header, units, strict=True)]
-    k, assumed = _time_column(path, heads, values)
+    k, assumed = time_column(path, heads, values, others)
     time, more = seconds(path, heads[k], values[k])
     for head, column in zip(heads, values, strict=True):
         if np.isinf(column).any():
             raise RecordingError(
                 f"{path}: `{head.text}` has a value beyond the largest number, {np.finfo(float).max:.3g}"
             )
-    others = [i for i in range(len(heads)) if i != k]
-    if not others or not len(time):
+    signals = [i for i in range(len(heads)) if i != k]
+    if not signals or not len(time):
         raise RecordingError(f"{path}: there is no {'signal beside' if len(time) else 'sample of'} `{heads[k].text}`")
-    names = distinct([heads[i] for i in others])
+    names = distinct([heads[i] for i in signals])
     channels = tuple(
-        Channel(n, heads[i].unit or "", time, values[i], heads[i]) for n, i in zip(names, others, strict=True)
+        Channel(n, heads[i].unit or "", time, values[i], heads[i]) for n, i in zip(names, signals, strict=True)
     )
-    return Recorded(path, channels, (*notes, *assumed, *more), heads[k].text)
+    return Recorded(path, channels, (*left_out(others), *notes, *assumed, *more), heads[k].text)
 
 
 def _refuse_namesakes(path: Path, header: Sequence[str]) -> None:
@@ -99,10 +99,16 @@ def _refuse_namesakes(path: Path, header: Sequence[str]) -> None:
             raise RecordingError(f"{path}: columns {header.index(name) + 1} and {k + 1} are both called `{name}`")
 
 
-def _time_column(path: Path, heads: Sequence[Head], values: np.ndarray) -> tuple[int, list[str]]:
+def time_column(
+    path: Path, heads: Sequence[Head], values: np.ndarray, others: Sequence[str] = ()
+) -> tuple[int, list[str]]:
+    """Which column is time, and what was assumed. Raises RecordingError where none is, or only one of the `others`,
+    which are left out."""
     named = [k for k, head in enumerate(heads) if head.is_time]
     if named:
         return named[0], []
+    if unread := [name for name in others if read_head(name).is_time]:
+        raise RecordingError(f"{path}: `{unread[0]}` holds neither numbers nor dates: write it in seconds")
     rising = [k for k in range(len(heads)) if values.shape[1] > 1 and np.all(np.diff(values[k]) > 0)]
     if not rising:
         raise RecordingError(
@@ -117,11 +123,23 @@ def seconds(path: Path, head: Head, values: np.ndarray) -> tuple[np.ndarray, lis
     factor, si = to_si(head.unit or "s")
     if si != "s":
         raise RecordingError(f"{path}: the unit of the time column `{head.text}` is {head.unit}, which is no time")
-    interval = float(np.median(np.diff(values))) if len(values) > 1 else 1.0
-    if np.spacing(np.nanmax(np.abs(values), initial=0.0)) > MAX_ROUNDING * abs(interval):
-        notes.append(f"time begins at 0; the file's begins at {values[0]:.17g} {head.unit or 's'}")
+    if blurred(values):
+        notes.append(begins_at(f"{values[0]:.17g}", head))
         values = values - values[0]
     return (values if factor == 1.0 else values * factor), notes
+
+
+def blurred(time: np.ndarray) -> bool:
+    """Whether it begins so far from zero that its rounding shows in the samples' intervals."""
+    if not len(time) or time[0] == 0:
+        return False
+    interval = float(np.median(np.diff(time))) if len(time) > 1 else 1.0
+    return bool(np.spacing(np.nanmax(np.abs(time), initial=0.0)) > MAX_ROUNDING * abs(interval))
+
+
+def begins_at(first: str, head: Head) -> str:
+    """What is said of a time that was blurred."""
+    return f"time begins at 0; the file's begins at {first} {head.unit or 's'}"
 
 
 def from_clock(instants: np.ndarray) -> tuple[np.ndarray, list[str]]:
@@ -165,9 +183,13 @@ def distinct(heads: Sequence[Head]) -> list[str]:
 def as_reals(path: Path, name: str, values: np.ndarray) -> np.ndarray:
     """The values of a channel as Reals. Raises RecordingError for whole numbers that none of these holds exactly."""
     values = np.asarray(values)
-    if values.dtype.kind in "iu" and np.any((values > _EXACT) | (values < -_EXACT)):
-        raise RecordingError(f"{path}: {name} holds whole numbers beyond 2^53, which a Real does not hold exactly")
+    if values.dtype.kind in "iu" and np.any((values > EXACT) | (values < -EXACT)):
+        raise beyond_exact(path, name)
     return values.astype(float)
+
+
+def beyond_exact(path: Path, name: str) -> RecordingError:
+    return RecordingError(f"{path}: {name} holds whole numbers beyond 2^53, which a Real does not hold exactly")
 
 
 def on_one_time(channels: Sequence[Channel]) -> tuple[np.ndarray, list[np.ndarray]]:

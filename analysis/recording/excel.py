@@ -12,6 +12,7 @@ import numpy as np
 from lacuna.analysis.recording.channel import (
     Recorded,
     RecordingError,
+    beyond_exact,
     clock_name,
     from_clock,
     from_table,
@@ -50,6 +51,9 @@ def read(path: Path) -> Recorded:
     for number, row in enumerate(rows[first:], first + 1):
         if not _numbers(row):
             raise RecordingError(f"{path}: row {number} of its first sheet holds something that is no number")
+    for name, column in zip(header, rows[first:].T, strict=True):
+        if any(isinstance(cell, int) and float(cell) != cell for cell in column):
+            raise beyond_exact(path, name)
     values = np.array([[np.nan if cell is None else float(cell) for cell in row] for row in rows[first:]]).T
     kept, said = named_columns(path, header, values)
     return from_table(path, [header[k] for k in kept], [units[k] for k in kept], values[kept], [*notes, *said])

@@ -10,6 +10,7 @@ Excel       .xlsx .xls .ods            first sheet; written as .xlsx
 
 from __future__ import annotations
 
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 
@@ -48,7 +49,7 @@ def read_recorded(path: Path | str) -> Recorded:
 def write_recorded(recorded: Recorded, path: Path) -> None:
     """Write the channels in the format of the path's suffix, whole or not at all. Raises RecordingError for others, and
     for a channel that would stand in the file as a second time, or has a name that no column can have."""
-    kind = _kind(path)
+    kind, recorded = _kind(path), _without_guesses(recorded)
     if (instead := _READ_ONLY.get(path.suffix.lower())) is not None:
         raise RecordingError(f"{path}: {path.suffix} is read only; write {instead}")
     if unfit := [c.name for c in recorded.channels if not c.name.strip() or not c.name.isprintable()]:
@@ -62,6 +63,12 @@ def write_recorded(recorded: Recorded, path: Path) -> None:
             raise
         except Exception as error:  # every library has errors of its own for a disk that is full
             raise RecordingError(f"{path}: cannot be written: {error}") from error
+
+
+def _without_guesses(recorded: Recorded) -> Recorded:
+    """A unit that was only inferred from the end of a name stays there: written as one, it would be believed."""
+    said = [replace(c, name=c.head.text, unit="") if c.unit and not c.head.sure else c for c in recorded.channels]
+    return replace(recorded, channels=tuple(said))
 
 
 def _reader(path: Path) -> Reader:

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from lacuna.analysis.recording.channel import Recorded, RecordingError, as_reals, from_table, left_out, on_one_time
+from lacuna.analysis.recording.channel import Recorded, RecordingError, as_reals, from_table, on_one_time
 
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 _DESCRIPTION = 116  # bytes of text at the head of version 5
@@ -25,7 +25,10 @@ def read(path: Path) -> Recorded:
         names, units = _texts(content["names"]), _texts(content.get("units", []))
         if np.iscomplexobj(content["data"]):
             raise RecordingError(f"{path}: its data are complex; a recording is of real numbers")
-        table, time = np.atleast_2d(as_reals(path, "data", content["data"])), np.ravel(content["time"]).astype(float)
+        table, time = (
+            np.atleast_2d(as_reals(path, "data", content["data"])),
+            as_reals(path, "time", np.ravel(content["time"])),
+        )
         columns = table.T if table.shape == (len(time), len(names)) else table
         if columns.shape != (len(names), len(time)):
             found = f"{len(names)} names, {len(time)} times and data of {' by '.join(map(str, table.shape))}"
@@ -89,8 +92,8 @@ def _vectors(path: Path, content: dict[str, Any]) -> Recorded:
             columns = matrix.T if matrix.shape[0] == rows else matrix
             vectors |= {f"{name}[{k}]": as_reals(path, name, column) for k, column in enumerate(columns, 1)}
     taken = {name.split("[")[0] for name in vectors}
-    notes = left_out([name for name in flat if name not in vectors and name not in taken])
-    return from_table(path, list(vectors), [""] * len(vectors), np.array(list(vectors.values())), notes)
+    others = [name for name in flat if name not in vectors and name not in taken]
+    return from_table(path, list(vectors), [""] * len(vectors), np.array(list(vectors.values())), others=others)
 
 
 def _fields(content: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
@@ -128,10 +131,8 @@ def _trajectories(path: Path, content: dict[str, Any]) -> Recorded:
 
 def _texts(value: Any) -> list[str]:
     """The texts of a cell array or of a matrix of characters."""
-    return [
-        str(np.ravel(text)[0] if isinstance(text, np.ndarray) and text.size else text).strip()
-        for text in np.ravel(value)
-    ]
+    texts = ((*np.ravel(text), "")[0] if isinstance(text, np.ndarray) else text for text in np.ravel(value))
+    return [str(text).strip() for text in texts]
 
 
 def _columns_of_text(matrix: Any) -> list[str]:

@@ -15,7 +15,6 @@ from lacuna.analysis.recording.channel import (
     clock_name,
     from_clock,
     from_table,
-    left_out,
     on_one_time,
 )
 
@@ -34,7 +33,7 @@ def read(path: Path) -> Recorded:
     if not fields:
         raise RecordingError(f"{path}: none of its columns holds numbers")
     units = [(f.metadata or {}).get(b"unit", b"").decode("utf-8", "replace") for f in fields]
-    columns, notes = [], left_out(others)
+    columns, notes = [], []
     for k, field in enumerate(fields):
         column = table.column(field.name)
         if pyarrow.types.is_timestamp(field.type):
@@ -48,7 +47,7 @@ def read(path: Path) -> Recorded:
             except pyarrow.ArrowInvalid:  # an integer beyond 2^53
                 values = as_reals(path, field.name, numbers.drop_null().to_numpy())
         columns.append(values)
-    return from_table(path, names, units, np.array(columns), notes)
+    return from_table(path, names, units, np.array(columns), notes, others)
 
 
 def _kinds(types: Any) -> tuple[Callable[[Any], bool], ...]:

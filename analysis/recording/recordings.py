@@ -90,11 +90,12 @@ def _sampling_rate(path: Path, time: np.ndarray, duration: float) -> float:
     if not np.isfinite(time).all() or len(time) < 2:
         raise Refusal(f"{path}: time has missing values")
     steps = np.diff(time)
-    rate = 1 / float(np.median(steps)) if np.median(steps) > 0 else float("inf")
-    odd = np.flatnonzero(np.abs(steps * rate - 1) > 0.02)
+    interval = float(np.median(steps))
+    odd = np.flatnonzero((steps <= 0) | (np.abs(steps - interval) > 0.02 * interval))
     if len(odd):
         at, step = time[odd[0]], steps[odd[0]]
         raise Refusal(f"{path}: time is not uniform: at {at:g} s the next sample is {step:g} s later")
+    rate = 1 / interval
     if rate < SLOWEST:
         raise Refusal(f"{path}: sampled at {rate:g} Hz; at least {SLOWEST:g} Hz are needed")
     length = len(time) / rate

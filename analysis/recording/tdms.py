@@ -31,7 +31,7 @@ def read(path: Path) -> Recorded:
         raise RecordingError(f"{path}: not a TDMS file that can be read: {error}") from None
     every = [c for group in file.groups() for c in group.channels()]
     found = [c for c in every if len(c) and c.data.dtype.kind in "fiubM"]
-    notes = left_out([c.name for c in every if all(c is not kept for kept in found)])
+    others = [c.name for c in every if all(c is not kept for kept in found)]
     if all("wf_increment" in c.properties for c in found):
         found = [c for c in found if c.data.dtype.kind != "M"]
     if not found:
@@ -42,7 +42,7 @@ def read(path: Path) -> Recorded:
         return Recorded(path, tuple(
             Channel(name, head.unit or "", _waveform_time(path, c), as_reals(path, c.name, c.data), head)
             for name, head, c in zip(names, heads, found, strict=True)
-        ), tuple(notes))  # fmt: skip
+        ), tuple(left_out(others)))  # fmt: skip
     lengths = {c.name: len(c) for c in found}
     if len(set(lengths.values())) > 1:
         raise RecordingError(
@@ -51,6 +51,7 @@ def read(path: Path) -> Recorded:
         )
     names = [c.name for c in found]
     units, columns = [str(c.properties.get("unit_string", "")) for c in found], []
+    notes: list[str] = []
     for k, c in enumerate(found):
         if c.data.dtype.kind == "M":
             values, said = from_clock(c.data)
@@ -59,7 +60,7 @@ def read(path: Path) -> Recorded:
         else:
             values = as_reals(path, c.name, c.data)
         columns.append(values)
-    return from_table(path, names, units, np.array(columns), notes)
+    return from_table(path, names, units, np.array(columns), notes, others)
 
 
 def _waveform_time(path: Path, channel: Any) -> np.ndarray:

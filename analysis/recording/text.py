@@ -7,11 +7,10 @@ is true or false, an empty field is a missing sample, and anything else ends wit
 from __future__ import annotations
 
 import codecs
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 import csv
 from dataclasses import dataclass
 import io
-from itertools import islice, product
 from pathlib import Path
 import re
 
@@ -19,23 +18,33 @@ import numpy as np
 
 from lacuna.analysis.recording import instants
 from lacuna.analysis.recording.channel import (
+    EXACT,
     Recorded,
     RecordingError,
+    begins_at,
+    blurred,
     clock_name,
     from_table,
     named_columns,
     on_one_time,
+    time_column,
 )
-from lacuna.analysis.recording.heads import known_unit
-from lacuna.rows import rows_of
+from lacuna.analysis.recording.heads import known_unit, read_head
+from lacuna.analysis.recording.numerals import (
+    BLANKS,
+    NUMBER,
+    SAMPLE,
+    Dialect,
+    fields_of,
+    is_row_of_numbers,
+    marks_of,
+    refuse_rounded,
+    since_first,
+)
 from lacuna.runtime.errors import SimulationError
 from lacuna.runtime.files import read_metadata
 
-_BLANKS = " "  # stands for any number of them
-_SEPARATORS = (",", ";", "\t", "|", _BLANKS)
-_SAMPLE = 200  # lines that decide the dialect
 _NAN = re.compile(r"(?<![A-Za-z])nan(?![A-Za-z])", re.IGNORECASE)
-_NUMBER = {mark: re.compile(rf"[+-]?(\d+[{mark}]?\d*|[{mark}]\d+)([eE][+-]?\d+)?|(?i:nan)|") for mark in ".,"}
 _CONDITION = re.compile(r'(?<![^,;\t| ])"?\b(true|false)\b"?(?![^,;\t| ])', re.IGNORECASE)
 _NO_TEXT = re.compile("[\0-\x08\x0e-\x1f\x7f]")  # control characters, which a terminal would obey
 _NO_NAME = re.compile(r"[+-]?([0-9.,]+([eE][+-]?[0-9]+)?|(?i:inf|infinity|nan))")
@@ -44,17 +53,10 @@ _UNIT = re.compile(r"[\[(]?[^\s\[\]()]{0,12}[\])]?")
 
 
 @dataclass(frozen=True)
-class Dialect:
-    separator: str
-    decimal: str
-    encoding: str
-
-
-@dataclass(frozen=True)
 class TextTable:
     """`header` and `units` [columns] as written, "" where no row of units stands below the header.
 
-    `values` [columns, rows]; NaN where a sample is missing.
+    `values` [columns, rows]; NaN where a sample is missing. `fields` gives those of a column as they are written.
     """
 
     path: Path
@@ -63,6 +65,7 @@ class TextTable:
     values: np.ndarray
     dialect: Dialect
     skipped: int  # lines before the header
+    fields: Callable[[int], list[str]]
     notes: tuple[str, ...] = ()  # what was left out
 
 
@@ -71,7 +74,22 @@ def read(path: Path) -> Recorded:
     table = read_text(path)
     units = tuple(own or beside for own, beside in zip(table.units, _units_beside(path, table.header), strict=True))
     above = [f"{table.skipped} lines above the header were passed over"] if table.skipped else []
-    return from_table(path, table.header, units, table.values, [*above, *table.notes])
+    begun = _keep_digits(table, units)
+    return from_table(path, table.header, units, table.values, [*above, *table.notes, *begun])
+
+
+def _keep_digits(table: TextTable, units: Sequence[str]) -> list[str]:
+    """Let a time whose digits would blur its samples begin at 0, and say so. Raises RecordingError where a whole number
+    in another column is lost."""
+    heads = [read_head(name, unit) for name, unit in zip(table.header, units, strict=True)]
+    clock, notes = time_column(table.path, heads, table.values)[0], []
+    if blurred(table.values[clock]):
+        fields = table.fields(clock)
+        table.values[clock] = since_first(fields, table.dialect.decimal)
+        notes = [begins_at(fields[0], heads[clock])]
+    for k in np.flatnonzero((np.abs(table.values) >= EXACT).any(axis=1)):
+        refuse_rounded(table.path, table.header[k], table.values[k], table.fields(k))
+    return notes
 
 
 def _units_beside(path: Path, header: Sequence[str]) -> Sequence[str]:
@@ -90,17 +108,11 @@ def read_text(path: Path) -> TextTable:
     written = text.splitlines()
     instants_of = _instants(path, written)
     lines = _with_conditions(instants_of.lines, text.lower())
-    separator, decimal = _marks(path, lines, written)
-    first = next(i for i, line in enumerate(lines) if _is_row_of_numbers(_fields(line, separator), decimal))
-    above = [_fields(line, separator) for line in written[:first]]
-    width = len(_fields(lines[first], separator))
-    names = [row for row in above if len(row) == width]
-    if not names:
-        raise RecordingError(f"{path}:{first + 1}: {_no_header(above, width)}")
-    units = names[-1] if len(names) > 1 and _are_units(names[-1], names[-2]) else None
-    header = names[-2] if units else names[-1]
-    if any(_NO_NAME.fullmatch(name) for name in (*header, *(unit for unit in units or () if unit != "1"))):
-        raise RecordingError(f"{path}:{first}: numbers where names of columns or units should be")
+    separator, decimal = marks_of(path, lines, written)
+    first = next(i for i, line in enumerate(lines) if is_row_of_numbers(fields_of(line, separator), decimal))
+    above = [fields_of(line, separator) for line in written[:first]]
+    width = len(fields_of(lines[first], separator))
+    header, units = _names_and_units(path, above, width, decimal)
     _refuse_numbers_as_units(path, units or [], first)
     skipped, header, units = above.index(header), list(header), list(units or [""] * width)
     _refuse_rows_above(path, written[:first], above, width, skipped)
@@ -108,6 +120,10 @@ def read_text(path: Path) -> TextTable:
     column = _column_of_instants(path, written, instants_of, first, separator)
     begun = _seconds_of_instants(column, written[first], header, units, values)
     kept, notes = named_columns(path, header, values)
+
+    def fields(k: int) -> list[str]:
+        return [fields_of(line, separator)[kept[k]] for line in lines[first:] if line.strip()]
+
     return TextTable(
         path,
         tuple(header[k] for k in kept),
@@ -115,8 +131,29 @@ def read_text(path: Path) -> TextTable:
         values[kept],
         Dialect(separator, decimal, encoding),
         skipped,
+        fields,
         (*begun, *notes),
     )
+
+
+def _names_and_units(
+    path: Path, above: list[list[str]], width: int, decimal: str
+) -> tuple[list[str], list[str] | None]:
+    """The rows of them `above` the first row of numbers; None where there is none of units."""
+    lines = [number for number, row in enumerate(above, 1) if len(row) == width]
+    if not lines:
+        raise RecordingError(f"{path}:{len(above) + 1}: {_no_header(above, width)}")
+    names = [above[number - 1] for number in lines]
+    units = names[-1] if len(names) > 1 and _are_units(names[-1], names[-2]) else None
+    for number, row in list(zip(lines, names, strict=True))[-2 if units else -1 :]:
+        cells = [cell for cell in row if cell != "1" or row is not units]
+        if numbers := [cell for cell in cells if _NO_NAME.fullmatch(cell)]:
+            others = [cell[:40] for cell in row if not NUMBER[decimal].fullmatch(cell)]
+            said = (
+                f"`{others[0]}` is no number, but `{numbers[0]}` beside it is one" if others else "no names of columns"
+            )
+            raise RecordingError(f"{path}:{number}: {said}")
+    return (names[-2] if units else names[-1]), units
 
 
 def _refuse_numbers_as_units(path: Path, units: list[str], line: int) -> None:
@@ -136,7 +173,7 @@ def _refuse_rows_above(path: Path, written: list[str], above: list[list[str]], w
 
 def _instants(path: Path, lines: list[str]) -> instants.Counted:
     try:
-        return instants.counted(lines, _SAMPLE)
+        return instants.counted(lines, SAMPLE)
     except ValueError as error:
         raise RecordingError(f"{path}:{error}") from None
 
@@ -148,14 +185,14 @@ def _column_of_instants(
     of them among numbers, would be read as something else."""
     if not any(found.kinds[first:]):
         return None
-    fields = zip(_fields(written[first], separator), _fields(found.lines[first], separator), strict=False)
+    fields = zip(fields_of(written[first], separator), fields_of(found.lines[first], separator), strict=False)
     column = next((k for k, (one, other) in enumerate(fields) if one != other), None)
     for row in range(first, len(written)):
         if written[row].strip() and found.kinds[row] != found.kinds[first]:
             here, there = found.kinds[row] or "no instant", found.kinds[first] or "no instant"
             raise RecordingError(f"{path}:{row + 1}: {here}, where the first row, line {first + 1}, has {there}")
     for row in range(first, len(written)) if column is not None else ():
-        one, other = (_fields(lines[row], separator) for lines in (written, found.lines))
+        one, other = (fields_of(lines[row], separator) for lines in (written, found.lines))
         if one[column : column + 1] == other[column : column + 1] != []:
             raise RecordingError(f"{path}:{row + 1}: its instant is not in column {column + 1}, as in the first row")
     return column
@@ -202,47 +239,6 @@ def _with_conditions(lines: list[str], text: str) -> list[str]:
     return [_CONDITION.sub(lambda f: "01"[f[1][0] in "tT"], s) if any(map(str.isdigit, s)) else s for s in lines]
 
 
-def _fields(line: str, separator: str) -> list[str]:
-    if separator == _BLANKS:
-        return line.split()
-    try:
-        return next((row for _, row in rows_of(line, separator)), [])
-    except ValueError:
-        return [line]  # a quotation without end: no row of numbers
-
-
-def _is_row_of_numbers(fields: list[str], decimal: str) -> bool:
-    return len(fields) > 1 and any(fields) and all(_NUMBER[decimal].fullmatch(f) for f in fields)
-
-
-def _marks(path: Path, lines: list[str], written: list[str]) -> tuple[str, str]:
-    """The separator and the decimal mark under which most of the first lines are rows of numbers."""
-    best, most = ("", ""), 0
-    for decimal in ".,":
-        for separator in _SEPARATORS:
-            if separator == decimal:
-                continue
-            rows = sum(_is_row_of_numbers(_fields(line, separator), decimal) for line in islice(lines, _SAMPLE))
-            if rows > most:
-                best, most = (separator, decimal), rows
-    if not most:
-        raise RecordingError(f"{path}: no row of numbers in its first {_SAMPLE} lines{_nearest_to_one(lines, written)}")
-    return best
-
-
-def _nearest_to_one(lines: list[str], written: list[str]) -> str:
-    """The line with the most numbers, and what in it is none, as it is written."""
-    best, most = "; is it a recording?", 0
-    for number, line in enumerate(lines[:_SAMPLE], 1):
-        for decimal, separator in product(".,", _SEPARATORS):
-            fields = _fields(line, separator) if separator != decimal else []
-            strange = [k for k, field in enumerate(fields) if not _NUMBER[decimal].fullmatch(field)]
-            if strange and len(fields) - len(strange) > most:
-                field = (*_fields(written[number - 1], separator)[strange[0] :], fields[strange[0]])[0]
-                best, most = f": in line {number} `{field[:40]}` is none", len(fields) - len(strange)
-    return best
-
-
 def _are_units(row: list[str], above: list[str]) -> bool:
     named = all(name for name, cell in zip(above, row, strict=True) if cell)
     return named and any(row) and all(_UNIT.fullmatch(cell) for cell in row) and row != above
@@ -254,12 +250,12 @@ def _numbers(path: Path, lines: list[str], first: int, dialect: Dialect, width: 
     try:
         body = [_unquoted(line, dialect, width) for line in lines[first:] if line.strip()]
         plain = "\n".join(body)
-        if dialect.separator != _BLANKS:
+        if dialect.separator != BLANKS:
             plain = re.sub(rf"(^|{mark})[ ]*(?={mark}|$)", r"\1nan", plain, flags=re.MULTILINE)
         if re.search(rf"[^0-9eE+\-{dialect.decimal} \n{mark}]", _NAN.sub("", plain)):
             raise ValueError
         plain = plain.replace(dialect.decimal, ".")
-        separator = None if dialect.separator == _BLANKS else dialect.separator
+        separator = None if dialect.separator == BLANKS else dialect.separator
         return np.loadtxt(io.StringIO(plain), delimiter=separator, ndmin=2).T
     except ValueError:
         raise _first_fault(path, lines, first, dialect, width) from None
@@ -269,8 +265,8 @@ def _unquoted(line: str, dialect: Dialect, width: int) -> str:
     """A line without quotation marks. Raises ValueError where what they hold is not numbers, one in each column."""
     if '"' not in line:
         return line
-    fields = _fields(line, dialect.separator)
-    if len(fields) != width or not all(_NUMBER[dialect.decimal].fullmatch(field) for field in fields):
+    fields = fields_of(line, dialect.separator)
+    if len(fields) != width or not all(NUMBER[dialect.decimal].fullmatch(field) for field in fields):
         raise ValueError
     return dialect.separator.join(fields)
 
@@ -278,13 +274,13 @@ def _unquoted(line: str, dialect: Dialect, width: int) -> str:
 def _first_fault(path: Path, lines: list[str], first: int, dialect: Dialect, width: int) -> RecordingError:
     """What is wrong in the first line that is no row of numbers."""
     for number, line in enumerate(lines[first:], first + 1):
-        fields = _fields(line, dialect.separator)
+        fields = fields_of(line, dialect.separator)
         if not line.strip():
             continue
         if len(fields) != width:
             return RecordingError(f"{path}:{number}: {len(fields)} fields where the first row has {width}")
         for column, field in enumerate(fields, 1):
-            if not _NUMBER[dialect.decimal].fullmatch(field):
+            if not NUMBER[dialect.decimal].fullmatch(field):
                 return RecordingError(f"{path}:{number}: field {column}, `{field[:40]}`, is no number")
     return RecordingError(f"{path}: its rows are no table of numbers")
 

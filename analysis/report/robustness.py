@@ -90,7 +90,7 @@ def page(settings: Settings, results: Results, strangers: Strangers) -> str:
     nuisances = [
         f"| {nuisance['name']} | {_percent(a)} | {_percent(b)} |"
         for nuisance, a, b in zip(
-            settings.raw["nuisances"], error_shares(results, paper), error_shares(results, ours), strict=True
+            settings.nuisances, error_shares(results, paper), error_shares(results, ours), strict=True
         )
     ]
     return PAGE.format(

@@ -44,7 +44,7 @@ def _column(results: pa.Table, name: str) -> np.ndarray:
 def _cloud(results: pa.Table, settings: Settings) -> Markup:
     fault = settings.fault
     every = slice(None, None, -(-len(results) // SHOWN))
-    severity, rms = (_column(results, name)[every] for name in (fault.symbol, "rms_mean"))
+    severity, rms = (_column(results, name)[every] for name in (fault.parameter, "rms_mean"))
     with in_style():
         drawn: Figure = new_figure()
         axes = drawn.subplots()

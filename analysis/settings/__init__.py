@@ -101,6 +101,16 @@ class Settings:
         actuator = self.raw["actuator"]
         return dict(zip(actuator.get("parameters", []), actuator.get("values", []), strict=True))
 
+    @property
+    def nuisances(self) -> list[dict[str, Any]]:
+        """What disturbs the parameters of a test. Raises AnalysisError where one moves the fault's own."""
+        found: list[dict[str, Any]] = self.raw.get("nuisances", [])
+        for nuisance in found:
+            if self.fault.parameter in nuisance["parameters"]:
+                moves = f"[[nuisances]] `{nuisance['name']}` moves {self.fault.parameter}"
+                raise AnalysisError(f"{self.path}: {moves}, which is the fault: take it out")
+        return found
+
     def band_of(self, severity: float) -> Band:
         """In a gap between bands, the nearer one."""
         return min(self.bands, key=lambda band: max(band.first - severity, severity - band.last))
@@ -137,27 +147,41 @@ def settings_of(text: str, path: Path) -> Settings:
     settings = _settings(path, text, raw)
     _check_sizes(settings)
     _check_bands(settings)
+    _check_parameters(settings)
     return settings
 
 
 def _check_sizes(settings: Settings) -> None:
     """A map of a number of tests, and recordings of a size, that can be made and read again."""
-    fault, path = settings.fault, settings.path
-    if fault.last < fault.first:
-        raise AnalysisError(f"{path}: [fault] needs first <= last")
-    if (fault.last - fault.first) / fault.step > MOST_TESTS:
-        raise AnalysisError(f"{path}: [fault] makes more than {MOST_TESTS} tests of a map")
-    steps = (fault.last - fault.first) / fault.step
-    if abs(steps - round(steps)) > MISSED:
-        raise AnalysisError(
-            f"{path}: [fault] goes from {fault.first:g} to {fault.last:g}, no whole steps of {fault.step:g}"
-        )
+    path, others = settings.path, settings.raw.get("combined", [])
+    _check_axis(f"{path}: [fault]", settings.raw["fault"])
+    for k, other in enumerate(others):
+        _check_axis(f"{path}: [[combined]] {other['symbol']}", other)
+        if other["symbol"] in [before["symbol"] for before in others[:k]]:
+            raise AnalysisError(f"{path}: two [[combined]] have the symbol {other['symbol']}: rename one")
     if len(set(settings.currents)) < len(settings.currents):
         raise AnalysisError(f"{path}: [signals] names a current twice")
     if settings.sampling_rate * settings.duration * 8 * (len(settings.currents) + 2) > LARGEST:
         raise AnalysisError(f"{path}: [recording] makes more than {LARGEST >> 20} MB a test")
     if not settings.speed_after < settings.duration:
         raise AnalysisError(f"{path}: speed.after is {settings.speed_after:g} s of a test of {settings.duration:g} s")
+
+
+def _check_axis(place: str, entry: dict[str, Any]) -> None:
+    """Severities in whole steps; what is healthy, and the limits, among them."""
+    first, last, step = entry["first"], entry["last"], entry["step"]
+    if last < first:
+        raise AnalysisError(f"{place} needs first <= last")
+    if (last - first) / step > MOST_TESTS:
+        raise AnalysisError(f"{place} makes more than {MOST_TESTS} tests of a map")
+    steps = (last - first) / step
+    if abs(steps - round(steps)) > MISSED:
+        raise AnalysisError(f"{place} goes from {first:g} to {last:g}, no whole steps of {step:g}")
+    if not first <= entry.get("healthy", first) <= last:
+        raise AnalysisError(f"{place}: healthy is {entry['healthy']:g}, outside of {first:g} to {last:g}")
+    rising = [first, *entry.get("limits", [])]
+    if not all(below < above <= last for below, above in pairwise(rising)):
+        raise AnalysisError(f"{place}: limits must rise from above {first:g} to at most {last:g}: {rising[1:]}")
 
 
 def _check_bands(settings: Settings) -> None:
@@ -170,6 +194,23 @@ def _check_bands(settings: Settings) -> None:
     for before, band in pairwise(settings.bands):
         if not before.last < band.first:
             raise AnalysisError(f"{settings.path}: band {band.name} does not begin above the end of {before.name}")
+
+
+def _check_parameters(settings: Settings) -> None:
+    """Each has one value in a test: what two entries give would be that of the later one."""
+    path, fault = settings.path, settings.fault.parameter
+    if fault in settings.own_parameters:
+        raise AnalysisError(f"{path}: actuator.parameters names {fault}, which the fault sets: take it out")
+    refused, warned = (settings.raw.get("assessment", {}).get(name) for name in ("improbable", "doubtful"))
+    if refused is not None and warned is not None and warned < refused:
+        raise AnalysisError(f"{path}: assessment.doubtful, {warned:g}, is below assessment.improbable, {refused:g}")
+    mover: dict[str, str] = {}
+    for nuisance in settings.raw.get("nuisances", []):
+        for parameter in nuisance["parameters"]:
+            if parameter in mover:
+                names = f"`{mover[parameter]}` and `{nuisance['name']}`"
+                raise AnalysisError(f"{path}: [[nuisances]] {names} both move {parameter}: leave one")
+            mover[parameter] = nuisance["name"]
 
 
 def _settings(path: Path, text: str, raw: dict[str, Any]) -> Settings:

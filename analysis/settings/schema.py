@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+import re
 import sys
 from typing import Any
 
@@ -21,6 +22,9 @@ class Rule:
     holds: Callable[[Any], bool]
 
 
+_SYMBOL = re.compile(r"(?!rms_|peak_|speed_mean$)\w[\w.-]*")  # part of a folder's name, and a head beside features
+
+
 def _number(what: str, holds: Callable[[float], bool]) -> Rule:
     def finite(value: Any) -> bool:
         number = isinstance(value, int | float) and not isinstance(value, bool)
@@ -35,6 +39,10 @@ def _several(rule: Rule) -> Rule:
 
 TEXT = Rule("a text", lambda value: isinstance(value, str))
 NAME = Rule("the name of something, a text", lambda value: isinstance(value, str) and bool(value.strip()))
+SYMBOL = Rule(
+    "a name of letters, digits, _ . and - other than those of features",
+    lambda value: isinstance(value, str) and bool(_SYMBOL.fullmatch(value)),
+)
 NUMBER = _number("", lambda value: True)
 POSITIVE = _number(" above zero", lambda value: value > 0)
 NOT_NEGATIVE = _number(" of zero or more", lambda value: value >= 0)
@@ -48,7 +56,7 @@ NAMES, NUMBERS = _several(NAME), _several(NUMBER)
 PAIR = Rule("two numbers, before and after the switch", lambda value: NUMBERS.holds(value) and len(value) == 2)
 
 _FAULT = {
-    "parameter": NAME, "symbol": NAME, "name": TEXT, "unit": TEXT, "scale": POSITIVE, "first": NUMBER, "last": NUMBER,
+    "parameter": NAME, "symbol": SYMBOL, "name": TEXT, "unit": TEXT, "scale": POSITIVE, "first": NUMBER, "last": NUMBER,
     "step": POSITIVE, "healthy?": NUMBER, "limits?": NUMBERS,
 }  # fmt: skip
 TABLES: dict[str, dict[str, Rule]] = {  # an entry that ends with ? may be left out
@@ -80,6 +88,7 @@ LISTS: dict[str, dict[str, Rule]] = {  # tables of which there may be several
     "combined": _FAULT,
     "strangers": {"name": TEXT, "parameters": NAMES, "factor?": NUMBERS, "value?": NUMBERS},
 }
+CHANGES = {"actuator": ("values",), "nuisances": ("spread", "shift"), "strangers": ("factor", "value")}
 
 
 def check(raw: dict[str, Any], path: Path) -> None:
@@ -98,8 +107,9 @@ def check(raw: dict[str, Any], path: Path) -> None:
             raise AnalysisError(f"{path}: {name} are tables: each begins with [[{name}]]")
         for number, table in enumerate(tables, start=1):
             _entries(f"{path}: {name}[{number}].", table, rules)
-            _equally_many(f"{path}: {name}[{number}]", table)
-    _equally_many(f"{path}: actuator", raw["actuator"])
+            _changes(f"{path}: {name}[{number}]", table, CHANGES.get(name, ()))
+    if raw["actuator"].get("parameters") or raw["actuator"].get("values"):
+        _changes(f"{path}: actuator", raw["actuator"], CHANGES["actuator"])
 
 
 def _table(path: Path, raw: dict[str, Any], name: str) -> dict[str, Any]:
@@ -126,9 +136,17 @@ def _unknown(message: str, name: str, known: list[str]) -> None:
     raise AnalysisError(f"{message}; {did_you_mean(name, known, 'there is ' + ', '.join(known))}")
 
 
-def _equally_many(place: str, table: dict[str, Any]) -> None:
-    """Of lists that go together, parameters and what becomes of each."""
-    parameters = table.get("parameters", [])
-    for name in ("values", "spread", "shift", "factor", "value"):
-        if name in table and len(table[name]) != len(parameters):
-            raise AnalysisError(f"{place}: {len(parameters)} parameters, but {len(table[name])} of {name}")
+def _changes(place: str, table: dict[str, Any], ways: tuple[str, ...]) -> None:
+    """Parameters, each once, and in one of the `ways` what becomes of each."""
+    if not ways:
+        return
+    parameters, given = table.get("parameters", []), [name for name in ways if name in table]
+    if len(given) > 1:
+        raise AnalysisError(f"{place}: has {' and '.join(given)}, and parameters change in one of these ways")
+    name = given[0] if given else " or ".join(ways)
+    count = len(table[name]) if given else 0
+    if count != len(parameters) or not given:
+        raise AnalysisError(f"{place}: {len(parameters)} parameters, but {count} of {name}")
+    for k, parameter in enumerate(parameters):
+        if parameter in parameters[:k]:
+            raise AnalysisError(f"{place}: names {parameter} twice")

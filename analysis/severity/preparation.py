@@ -32,7 +32,7 @@ def prepare_assessment(plant: Plant, settings: Settings, finished: Map, *, jobs:
     """
     chain, severities = Chain(settings), settings.fault.severities
     plant = plant.with_solver(settings.table("assessment")["solver"])
-    nuisances = settings.raw.get("nuisances", [])
+    nuisances = settings.nuisances
     signatures, covariance = [], []
     levels = conditions(settings.table("assessment")["conditions"])
     for level in levels:

@@ -60,7 +60,7 @@ def run_tests(
     `stranger`: the tests are of an actuator that is not the map's, an entry of the settings' [[strangers]].
     """
     settings = prepared.settings
-    nuisances = settings.raw.get("nuisances", [])
+    nuisances = settings.nuisances
     plant = plant.with_solver(settings.table("assessment")["solver"])
     design = qmc.Sobol(1 + len(nuisances), seed=SEED).random(count)
     study = _Study(plant, prepared, Chain(settings), nuisances, stranger or {})
@@ -123,7 +123,7 @@ class _Study:
             values |= moved(self.plant, nuisance, float(number))
         names = self.stranger.get("parameters", [])
         for name, factor in zip(names, self.stranger.get("factor", []), strict=False):
-            values[name] = factor * values.get(name, self.plant.declared(name))
+            values[name] = factor * values.get(name, self.plant.undisturbed(name))
         return values | dict(zip(names, self.stranger.get("value", []), strict=False))
 
 

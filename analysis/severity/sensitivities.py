@@ -35,9 +35,15 @@ def moved(plant: Plant, nuisance: dict, z):
     """Parameters by name at a nuisance's number `z`, or an array of them: `spread` of their logarithms, or `shift`."""
     if "shift" in nuisance:
         steps = zip(nuisance["parameters"], nuisance["shift"], strict=True)
-        return {name: plant.declared(name) + z * step for name, step in steps}
+        return {name: plant.undisturbed(name) + z * step for name, step in steps}
     spread = zip(nuisance["parameters"], nuisance["spread"], strict=True)
-    return {name: plant.declared(name) * np.exp(z * sigma) for name, sigma in spread}
+    return {name: plant.undisturbed(name) * np.exp(z * sigma) for name, sigma in spread}
+
+
+def require_nuisances(plant: Plant, settings: Settings) -> None:
+    """Raises AnalysisError, before anything is simulated, where one moves what it cannot."""
+    for nuisance in settings.nuisances:
+        moved(plant, nuisance, 0.0)
 
 
 @dataclass(frozen=True)

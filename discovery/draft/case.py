@@ -50,6 +50,7 @@ def new_case(name: str, data: Sequence[Path], out: Path, libraries: Sequence[Pat
     matches = matched(_common_heads(recorded), _targets(model))
     recorded = [_kelvins(one, matches) for one in recorded]
     matches = matched(recorded[0].heads, _targets(model))
+    recorded = [replace(one, heads=tuple(match.head for match in matches)) for one in recorded]
     if not any(m.target and not m.target.is_input for m in matches):
         raise CaseError(f"no column of {recorded[0].name} fits a variable of {name} by its name or its unit")
     missing = sorted(

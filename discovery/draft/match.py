@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import re
 
 from lacuna.analysis.recording.heads import Head
-from lacuna.recorded_units import same_dimension, to_si
+from lacuna.recorded_units import cycles_for_angle, same_dimension, to_si
 from lacuna.suggest import distance
 
 
@@ -47,6 +47,7 @@ def matched(heads: Sequence[Head], targets: Iterable[Target]) -> list[Match]:
 def _match(head: Head, scores: dict[Target, float], target: Target | None) -> Match:
     if target is None:
         return Match(head, None)
+    head = _of(head, target)
     others = sorted((t for t in scores if t != target), key=lambda t: -scores[t])
     # Sure: the names say the same and the unit agrees, or nothing else has this dimension.
     said = head.unit is not None or target.discrete
@@ -59,6 +60,7 @@ SAME_NAME = 2.0  # the names are the same, whatever the case; above it only what
 
 def likeness(head: Head, target: Target) -> float:
     """0 where the units contradict; 2 and more for the same name, 1 to 2 for a like one, below 1 for the unit alone."""
+    head = _of(head, target)
     if head.unit is not None and not _may_be(head.unit, target.unit):
         return 0.0
     # Of two alike the outer one, nearer to what an engineer instruments; inputs before what follows from them.
@@ -69,6 +71,12 @@ def likeness(head: Head, target: Target) -> float:
     if name > 0.5:
         return 1.0 + name / 2 + tie
     return 0.5 + tie if head.unit is not None and head.unit != "1" else 0.0
+
+
+def _of(head: Head, target: Target) -> Head:
+    """What the head says of this variable: the end of a name is a unit only where the variable is of its quantity."""
+    believed = head.unit is None or head.sure or _may_be(head.unit, target.unit)
+    return head if believed else Head(head.text, head.text, None, sure=False)
 
 
 def _alike(a: str, b: str) -> float:
@@ -95,6 +103,6 @@ def _may_be(recorded: str, declared: str) -> bool:
         return True  # a variable without unit makes no claim
     _, si = to_si(recorded)
     try:
-        return same_dimension(si, declared)
+        return same_dimension(si, declared) and not cycles_for_angle(si, declared)
     except ValueError:
         return True

@@ -88,7 +88,8 @@ def _signals(text: _Text, draft: Draft) -> None:
     for column in draft.columns:
         match = column.match
         if match.target is None:
-            text.look(f"column `{match.head.text}` fits no variable of the model and was left out")
+            turns = " (Hz is no rad/s: turns a second are rev/s)" if (match.head.unit or "").endswith("Hz") else ""
+            text.look(f"column `{match.head.text}` fits no variable of the model and was left out{turns}")
             text("")
             continue
         text(f"[signals.{key(match.head.name)}]" + _origin(match.head.text, match.head.name))

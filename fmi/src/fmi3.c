@@ -207,7 +207,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 from, fmi3Float64 size,
   fmu *f = instance;
   bool done = fmu_step(f, from, size, f->event_mode && f->early_return, event);
   *terminate = f->session->data.terminated != 0;
-  *early = done && (*event || *terminate) && f->session->t < from + size;
+  *early = f->early_return && done && (*event || *terminate) && f->session->t < from + size;
   *reached = f->session->t;
   return status(done);
 }

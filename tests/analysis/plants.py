@@ -22,7 +22,7 @@ class ReferencePlant:
         self.equations = [SourceEquation("J*a = tau < 0 & b", "rotor", "by hand:1")]
         self._fails_at, self._error = fails_at, error
 
-    def declared(self, name: str) -> float:
+    def undisturbed(self, name: str) -> float:
         return declared(name)
 
     def with_solver(self, solver: str) -> ReferencePlant:

@@ -174,9 +174,12 @@ def test_another_actuator_is_refused(tmp_path, map_folder):
         ("time,ia,ib,ic\n0,1,2,3\n1,x,2,3\n", ":3: field 2, `x`, is no number"),
         ("time,ia,ib,ic\n0,1,2,3\n1e-4,1,2,3\n5e-4,1,2,3\n6e-4,1,2,3\n7e-4,1,2,3", "not uniform: at 0.0001 s"),
         ("time,ia,ib,ic\n0,1,2,3\nnan,1,2,3\n", "time has missing values"),
+        ("time,ia,ib,ic\n0,1,2,3\n0,1,2,3\n0,1,2,3\n0.1,1,2,3\n", "at 0 s the next sample is 0 s later"),
+        ("time,ia,ib,ic\n5,1,2,3\n5,1,2,3\n", "the next sample is 0 s later"),
         ("\x00\x01\x02", "no text"),
     ],
 )
+@pytest.mark.filterwarnings("error")
 def test_broken_files_are_refused(tmp_path, map_folder, text, reason):
     path = tmp_path / "r.csv"
     path.write_text(text)

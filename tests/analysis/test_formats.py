@@ -141,7 +141,7 @@ def test_a_channel_has_a_name_that_can_be_read_again(tmp_path: Path, name: str) 
 
 
 def test_a_file_has_one_time(tmp_path: Path) -> None:
-    (tmp_path / "two.csv").write_text("time,time_s,u\n0,5,1\n1,6,2\n", encoding="utf-8")
+    (tmp_path / "two.csv").write_text("time,time [s],u\n0,5,1\n1,6,2\n", encoding="utf-8")
     with pytest.raises(RecordingError, match="two columns called time"):
         write_recorded(read_recorded(tmp_path / "two.csv"), tmp_path / "out.csv")
 
@@ -244,8 +244,8 @@ def test_a_damaged_file_of_units_is_refused_by_name(tmp_path: Path) -> None:
     ("text", "reason"),
     [
         ("time,x\n0,1e999\n1,2\n", "largest number"),
-        ("time,x\n0,inf\n1,2\n", "names of columns or units"),
-        ("u;time\n-8,5e-07;1_0\n-2,1;1,9\n4,8;2,1\n", "names of columns or units"),
+        ("time,x\n0,inf\n1,2\n", ":2: `inf` is no number"),
+        ("u;time\n-8,5e-07;1_0\n-2,1;1,9\n4,8;2,1\n", ":2: `1_0` is no number"),
         ("time,x\x1b[31m\n0,1\n1,2\n", "no text"),
     ],
 )

@@ -61,6 +61,22 @@ def test_instants_are_seconds_since_the_first(tmp_path: Path, text: str, begins:
     assert recorded.notes[-1] == f"time begins at 0, which is {begins}"
 
 
+@pytest.mark.parametrize(
+    ("head", "first", "factor"),
+    [("time", "1764000000.001", 1), ("t [s]", "1764000000,001", 1), ("time [ns]", "1764000000000000001", 1e-9),
+     ("stamp", "1764000000.5", 1)],
+)  # fmt: skip
+def test_times_far_from_zero_keep_all_their_digits(tmp_path: Path, head: str, first: str, factor: float) -> None:
+    """They were rounded before the first was taken away: by 1e-7 s of seconds since 1970, and by 100 ns of ns."""
+    stem, digit = first[:-1], int(first[-1])
+    rows = "".join(f"{stem}{digit + k};{k}\n" for k in range(4))
+    recorded = read(tmp_path / "r.csv", f"{head};u\n{rows}")
+    step = factor * 10.0 ** -len(first.replace(",", ".").partition(".")[2])
+    assert recorded["u"].time.tolist() == [k * step for k in range(4)] or head == "stamp"
+    assert recorded["u"].time == pytest.approx([k * step for k in range(4)], rel=1e-15)
+    assert f"time begins at 0; the file's begins at {first} {'ns' if factor < 1 else 's'}" in recorded.notes
+
+
 def test_clock_times_go_on_past_midnight(tmp_path: Path) -> None:
     text = "t,u\n23:59:59.8,1\n23:59:59.9,2\n00:00:00,3\n00:00:00.1,4\n12:00:00,5\n23:59:59,6\n00:00:00,7\n"
     recorded = read(tmp_path / "r.csv", text)
@@ -98,6 +114,10 @@ def test_a_column_that_counts_the_rows_is_left_out_with_a_word(tmp_path: Path) -
         ("time,u\n0;1\n1,2\n2,3\n", ":2: 1 fields where the header has 2"),
         ("time,u\n24:00:01,1\n", ":2: `24:00:01` is no instant"),
         ("time,on\n0,open\n", "line 2 `open` is none"),
+        ("time,u\n0,inf\n1,2\n2,3\n", ":2: `inf` is no number, but `0` beside it is one"),
+        ("time,u\n0,0x10\n1,2\n2,3\n", ":2: `0x10` is no number, but `0` beside it is one"),
+        ("time,u,\ns,V,\n0,inf,\n1,2,\n", ":3: `inf` is no number, but `0` beside it is one"),
+        ("time,5\n0,1\n1,2\n", ":1: `time` is no number, but `5` beside it is one"),
         ("time,u\n11:59:59 AM,1\n12:00:00 PM,2\n", "line 2 `11:59:59 AM` is none"),  # it was -1000000000 AM
         (",time,u\n7,0.0,1\n8,0.1,2\n", "column 1 has no name"),
         ("time,u\n0,1\n1,2\nEnd of file\n", ":4: 1 fields"),

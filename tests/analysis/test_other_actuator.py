@@ -41,5 +41,5 @@ def test_a_fault_that_the_model_does_not_have_is_named(tmp_path):
     path = tmp_path / "settings.toml"
     path.write_text(SCREW.read_text(encoding="utf-8").replace('"zeta"', '"rust"'), encoding="utf-8")
     settings = load_settings(path)
-    with pytest.raises(AnalysisError, match="no variable rust"):
+    with pytest.raises(AnalysisError, match="no parameter rust"):
         ModelPlant.of(compile_model(settings.model), settings)

@@ -84,6 +84,44 @@ def test_whole_numbers_that_no_real_holds_are_refused_in_every_format(tmp_path: 
         file.write_segment([nptdms.ChannelObject("g", "time", time), nptdms.ChannelObject("g", "n", large)])
     with pytest.importorskip("h5py").File(tmp_path / "a.hdf.mat", "w") as file:  # version 7.3
         file["time"], file["n"] = time[None, :], large[None, :]
-    for form in ("mat", "parquet", "mf4", "tdms", "hdf.mat"):
+    (tmp_path / "a.csv").write_text(f"time,n\n0,1\n1,{2**60}\n2,{2**53 + 1}\n")
+    book = pytest.importorskip("openpyxl").Workbook()
+    for row in (("time", "n"), (0, 1), (1, str(2**53 + 1))):
+        book.active.append(row)
+    book.active["B3"].data_type = "n"  # with all its digits, as other programs write it
+    book.save(tmp_path / "a.xlsx")
+    for form in ("mat", "parquet", "mf4", "tdms", "hdf.mat", "csv", "xlsx"):
         with pytest.raises(RecordingError, match=rf"a.{form}: n holds whole numbers beyond 2\^53"):
             read_recorded(tmp_path / f"a.{form}")
+
+
+def test_whole_numbers_that_are_reals_are_read_however_large(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text(f"time,n\n0,{2**60}\n1,{10**22}\n2,9007199254740993.5\n")
+    assert read_recorded(tmp_path / "a.csv")["n"].values.tolist() == [2.0**60, 1e22, 9007199254740993.5]
+
+
+@pytest.mark.parametrize("form", PACKAGES)
+def test_a_unit_that_is_only_the_end_of_a_name_is_not_written_as_one(tmp_path: Path, form: str) -> None:
+    """The current of phase C was written in coulomb."""
+    pytest.importorskip(PACKAGES[form])
+    (tmp_path / "source.csv").write_text("time,I_A,I_B,I_C,u_mV,T [K]\n0,1,2,3,4,5\n1,2,3,4,5,6\n")
+    source = read_recorded(tmp_path / "source.csv")
+    write_recorded(source, tmp_path / f"a.{form}")
+    again = read_recorded(tmp_path / f"a.{form}")
+    told = [(c.name, c.unit, c.head.sure) for c in source.channels]
+    assert [(c.name, c.unit, c.head.sure) for c in again.channels] == told
+    assert told[-2:] == [("u", "mV", False), ("T", "K", True)]
+
+
+def test_a_column_of_time_that_is_not_read_is_not_replaced_by_another(tmp_path: Path) -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    from pyarrow.parquet import write_table
+
+    rising = np.arange(3.0)
+    for kind in (pyarrow.duration("us"), pyarrow.time64("us"), pyarrow.string()):
+        time = pyarrow.array(["0", "1", "2"] if kind == pyarrow.string() else [0, 1, 2], kind)
+        write_table(pyarrow.table({"Time": time, "phi": rising, "u": rising}), tmp_path / "a.parquet")
+        with pytest.raises(RecordingError, match="`Time` holds neither numbers nor dates: write it in seconds"):
+            read_recorded(tmp_path / "a.parquet")
+        write_table(pyarrow.table({"Time": time, "t": rising, "u": rising}), tmp_path / "b.parquet")
+        assert read_recorded(tmp_path / "b.parquet").time == "t"

@@ -7,15 +7,18 @@ import json
 import os
 from pathlib import Path
 import signal
+import socket
 import subprocess
 import sys
 import time
+from urllib.parse import urlsplit
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
+from lacuna.analysis.campaign.clients import client_of
 from lacuna.analysis.campaign.points import chunks, sobol_points
 from lacuna.analysis.campaign.run import run_campaign
 from lacuna.analysis.campaign.work import Work
@@ -106,6 +109,25 @@ def test_no_scheduler_is_said_in_a_sentence(tmp_path):
     work, points = short_test(tmp_path)
     with pytest.raises(AnalysisError, match="no Dask scheduler answers at"):
         run_campaign(work, points, tmp_path, scheduler="tcp://127.0.0.1:1")
+
+
+@pytest.mark.parametrize("processes", [False, True])
+def test_workers_of_our_own_are_at_any_free_port_and_for_this_machine_alone(processes, recwarn):
+    """Dask's pages were at port 8787 of every network, with a warning where another sweep had it."""
+    local = {"n_workers": 1, "threads_per_worker": 1, "processes": processes}
+    with client_of(None, **local) as one, client_of(None, **local) as other:
+        for client in (one, other):
+            pages = [worker["services"]["dashboard"] for worker in client.scheduler_info()["workers"].values()]
+            pages += [urlsplit(client.dashboard_link).port]
+            assert len(pages) == 2 and all(map(_refused_elsewhere, pages))
+    assert not [w for w in recwarn if "already in use" in str(w.message)]
+
+
+def _refused_elsewhere(port: int) -> bool:
+    """Whether nobody answers at an address of this machine other than the one that it has for itself."""
+    with socket.socket() as one:
+        one.settimeout(1.0)
+        return one.connect_ex(("127.0.0.2", port)) != 0
 
 
 def test_killed_worker_and_killed_client_lose_nothing(undisturbed, tmp_path):
@@ -217,4 +239,17 @@ def test_a_sweep_computes_a_damaged_part_again(undisturbed, tmp_path):
     first = run_campaign(work, few, tmp_path, chunk=4).read_bytes()
     for part in (tmp_path / "parts").iterdir():
         part.write_bytes(b"PAR1")
+    assert run_campaign(work, few, tmp_path, chunk=4).read_bytes() == first
+
+
+def test_a_part_of_another_place_or_program_is_computed_again(undisturbed, tmp_path):
+    work, points = short_test(tmp_path)
+    few = {name: values[:8] for name, values in points.items()}
+    first = run_campaign(work, few, tmp_path, chunk=4).read_bytes()
+    one, other = sorted((tmp_path / "parts").iterdir())
+    other.write_bytes(one.read_bytes())
+    assert run_campaign(work, few, tmp_path, chunk=4).read_bytes() == first
+    rows = pq.read_table(one)
+    failure = rows.schema.get_field_index("failure")
+    pq.write_table(rows.set_column(failure, "failure", pa.nulls(len(rows))).replace_schema_metadata(), one)
     assert run_campaign(work, few, tmp_path, chunk=4).read_bytes() == first

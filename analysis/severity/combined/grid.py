@@ -46,12 +46,15 @@ def other_fault(settings: Settings, symbol: str) -> Fault:
     entries = {entry["symbol"]: entry for entry in settings.raw.get("combined", [])}
     if symbol not in entries:
         raise AnalysisError(f"{settings.path}: no [[combined]] fault {symbol}; there is {', '.join(entries) or 'none'}")
-    return Fault(**entries[symbol])
+    other = Fault(**entries[symbol])
+    if other.parameter == settings.fault.parameter:
+        raise AnalysisError(f"{settings.path}: [[combined]] {symbol} is the map's own fault, {other.parameter}")
+    return other
 
 
 def other_nuisances(settings: Settings, other: Fault) -> list[dict]:
     """Those that do not move the other fault's parameter."""
-    return [nuisance for nuisance in settings.raw["nuisances"] if other.parameter not in nuisance["parameters"]]
+    return [nuisance for nuisance in settings.nuisances if other.parameter not in nuisance["parameters"]]
 
 
 def build_grid(
@@ -61,7 +64,7 @@ def build_grid(
     """Simulate the grid and write combined.npz and settings.toml into `folder`."""
     plant = plant.with_solver(settings.table("assessment")["solver"])
     x = np.arange(settings.fault.first, settings.fault.last + STEP / 2, STEP)
-    y, every = np.array(other.severities), settings.raw["nuisances"]
+    y, every = np.array(other.severities), settings.nuisances
     nuisances = other_nuisances(settings, other)
     levels = conditions(LEVELS) if nuisances and nuisances[0] is every[0] else [0.0]
     share = 1 / len(levels)

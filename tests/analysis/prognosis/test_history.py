@@ -9,6 +9,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.prognosis.fleet import histories_of
 from lacuna.analysis.prognosis.history import read_histories
 
 GOOD = """actuator,cycles,severity,low,high,event
@@ -72,6 +73,20 @@ def test_parquet_says_the_same(tmp_path):
 def test_what_is_no_history_is_refused_with_its_row(tmp_path, text, message):
     with pytest.raises(AnalysisError, match="history.csv.*" + message.replace("?", r"\?")):
         read_histories(written(tmp_path, text))
+
+
+@pytest.mark.parametrize(("slip", "meant"), [("evnt", "event"), ("Event", "event"), ("Recording", "recording")])
+def test_a_column_that_is_called_nearly_as_one_that_is_missing_is_refused(tmp_path, slip, meant):
+    """The parts that were replaced were lost with a word in a head."""
+    path = tmp_path / "history.csv"
+    path.write_text(f"actuator,cycles,severity,low,high,{slip},operator\nA,1,0.1,0,0.2,replaced,me\n")
+    with pytest.raises(AnalysisError, match=f"column {slip} is not known; did you mean {meant}?"):
+        read_histories(path)
+    with pytest.raises(AnalysisError, match=f"column {slip} is not known; did you mean {meant}?"):
+        histories_of(pyarrow.csv.read_csv(path), str(path))
+    path.write_text(path.read_text().replace(slip, "noted on the day"))
+
+    assert len(read_histories(path)) == 1
 
 
 def test_a_missing_recording_is_named(tmp_path):

@@ -131,6 +131,27 @@ def test_a_name_in_another_dimension_is_no_match() -> None:
     assert matched([read_head("w [V]")], [Target("w", "rad/s", False)])[0].target is None
 
 
+@pytest.mark.parametrize(
+    ("text", "target", "unit"),
+    [
+        ("I_C", Target("I_C", "A", False), None),  # it was in coulomb, and fitted nothing
+        ("theta_d", Target("theta_d", "rad", False), None),
+        ("w_rpm", Target("w", "rad/s", False), "rpm"),
+    ],
+)
+def test_the_end_of_a_name_is_a_unit_where_the_variable_is_of_its_quantity(
+    text: str, target: Target, unit: str | None
+) -> None:
+    (found,) = matched([read_head(text)], [target])
+    assert found.target == target and found.head.unit == unit
+
+
+@pytest.mark.parametrize(("head", "unit"), [("n [Hz]", "rad/s"), ("w [Hz]", "rad/s"), ("f [rad/s]", "Hz")])
+def test_a_frequency_is_no_speed(head: str, unit: str) -> None:
+    """2 pi lie between them: such a case was drafted, and then refused."""
+    assert matched([read_head(head)], [Target(head[0], unit, False)])[0].target is None
+
+
 def test_a_variable_records_one_column_only() -> None:
     matches = matched([read_head("T [K]"), read_head("T2 [K]")], [Target("T", "K", False)])
     assert [m.target.name if m.target else None for m in matches] == ["T", None]
