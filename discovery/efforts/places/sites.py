@@ -152,15 +152,14 @@ def exchanges(places: Iterable[Site], unit: Callable[[Site], str]) -> list[Site]
 
 
 def varying(places: Iterable[Site], names: Mapping[str, int], kind: str = "parameter") -> list[Site]:
-    """Parameters, or inputs, that stand in equations which are all open; `names` says in how many. Those of components
-    only where there are several: what varies in one is a term of it."""
+    """Parameters, or inputs, that stand in equations which are all open; `names` says in how many: what varies in one is
+    a term of it, but may be short only as what its parameter is (a rate that too much of a substrate inhibits)."""
     equations = [site for site in places if site.kind == "equation" and site.term == "@"]
     found = []
     for name in names:
         owners = {"", name.rpartition(".")[0]}
         parts = [e for e in equations if e.instance in owners and re.search(_alone(e.inside(name)), e.local)]
-        least = 2 if any(e.instance for e in parts) else 1
-        if least <= len(parts) == names[name] and len({(e.instance, e.way) for e in parts}) == 1:
+        if 1 <= len(parts) == names[name] and len({(e.instance, e.way) for e in parts}) == 1:
             found.append(Site(kind, name, parts=tuple(parts), instance=parts[0].instance, way=parts[0].way))
     return found
 
