@@ -85,5 +85,6 @@ def test_a_state_that_goes_into_another_component_may_arrive_late(tmp_path: Path
     found = places_of(start.case, start.amendment, start.base, start.case.library())
     site = next(s for s in found.sites if s.place is not None and s.place.sites[0].kind == "signal")
     assert site.location == "mould"
+    assert {"unit.C", "mould.C"} <= {s.label for s in found.locator.opened.sites if s.kind == "parameter"}
     laws = next(proposals(found.locator, site, guide(found.locator, site), 3))
     assert any("delay(" in p.law.text() and {v.name for v in p.law.references()} == {"unit.T"} for p in laws)

@@ -152,8 +152,8 @@ def exchanges(places: Iterable[Site], unit: Callable[[Site], str]) -> list[Site]
 
 
 def varying(places: Iterable[Site], names: Mapping[str, int], kind: str = "parameter") -> list[Site]:
-    """Parameters, or inputs, that stand in equations which are all open; `names` says in how many: what varies in one is
-    a term of it, but may be short only as what its parameter is (a rate that too much of a substrate inhibits)."""
+    """Parameters, or inputs, that stand in equations which are all open; `names` says in how many. What varies in one
+    is a term of it, but may be short only as what its parameter is (a rate that too much of a substrate inhibits)."""
     equations = [site for site in places if site.kind == "equation" and site.term == "@"]
     found = []
     for name in names:
