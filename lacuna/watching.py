@@ -67,8 +67,9 @@ def _follow(
     seen: dict[Path, tuple[int, int]] = {}
     while not stop.is_set():
         found = _stamps(sources)
-        if found == seen:
-            stop.wait(LOOK)
+        stop.wait(LOOK)
+        # A save is over when a second look sees no more of it: an editor empties a file before it writes it.
+        if found == seen or _stamps(sources) != found:
             continue
         saved = max((stamp[0] for path, stamp in found.items() if seen.get(path) != stamp), default=0) / 1e9
         first, seen = not seen, found
@@ -81,6 +82,8 @@ def _follow(
         except Exception as error:
             if not is_user_error(error):
                 raise
+            if _stamps(sources) != seen:  # it may be of a save that was read halfway
+                continue
             shown.change(None, message_of(error))
             told(message_of(error))
 

@@ -99,6 +99,52 @@ def test_of_several_figures_each_takes_the_place_of_the_one_before_until_a_sourc
     assert told[1:3] == ["drawn", "drawn"]
 
 
+def test_a_save_is_read_when_it_is_over(tank: Path) -> None:
+    import threading
+
+    from matplotlib.figure import Figure
+
+    import lacuna
+
+    stop, told, read = threading.Event(), [], []
+
+    def draw() -> Figure:
+        read.append(lacuna.load(tank).name)
+        if len(read) == 1:  # as an editor saves: the file is empty for a moment, shorter than between two looks
+            tank.write_text("", encoding="utf-8")
+            threading.Timer(0.07, tank.write_text, (MODEL.replace("-h;", "-3*h;"),), {"encoding": "utf-8"}).start()
+        else:
+            stop.set()
+        return Figure()
+
+    lacuna.watch(draw, [tank], opened=told.append, told=told.append, stop=stop)
+    assert len(told) == 3 and not any("P019" in line for line in told)
+
+
+def test_an_error_of_sources_that_have_changed_since_is_not_told(tank: Path) -> None:
+    import threading
+
+    from matplotlib.figure import Figure
+
+    import lacuna
+
+    stop, told, times = threading.Event(), [], []
+
+    def draw() -> Figure:
+        times.append(0)
+        if len(times) == 1:
+            tank.write_text("", encoding="utf-8")
+            try:
+                lacuna.load(tank)
+            finally:
+                tank.write_text(MODEL.replace("-h;", "-3*h;"), encoding="utf-8")
+        stop.set()
+        return Figure()
+
+    lacuna.watch(draw, [tank], opened=told.append, told=told.append, stop=stop)
+    assert len(times) == 2 and told[1].startswith("drawn")
+
+
 def test_only_who_knows_the_secret_at_this_machine_s_own_name_is_answered(address: str) -> None:
     place = urlsplit(address)
     assert place.hostname == "127.0.0.1"
