@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from itertools import chain
 
 import numpy as np
 
@@ -88,14 +89,18 @@ def _told_here(place: Place, regression: Regression, laws: list[tuple[int, ...]]
 
 
 def _best(found: list[tuple[Regression, list[tuple[int, ...]]]], most: int) -> list[Proposal]:
-    """The best laws in all quantities, which explain different things; the last of them of the state alone whose
-    balance it is, where none is: along a run that a smooth effort leads, speeds on both ends of a stiff rope change
-    their sign as one, and which of them rubs only fits tell."""
-    scored = sorted((law for r, groups in found for law in _scored(r, groups)), key=_in_order)
-    best = _distinct(scored, most)
-    own = next((law for law in scored if _is_own(law)), None)
-    if own is not None and len(best) == most > 1 and not any(map(_is_own, best)):
-        best[-1] = own
+    """The best laws in a place's own quantity, and before them those in its others that promise more than any of these;
+    all explain different things. The last of them is of the state alone whose balance it is, where none is: along a run
+    that a smooth effort leads, speeds on both ends of a stiff rope change their sign as one, and which of them rubs
+    only fits tell."""
+    own, *others = (sorted(_scored(r, groups), key=_in_order) for r, groups in found)
+    promised = own[0][0] if own else np.inf
+    more = (law for law in sorted(chain.from_iterable(others), key=_in_order) if law[0] < promised)
+    beyond = _distinct(more, most)
+    best = _distinct([*beyond, *own], len(beyond) + most)
+    alone = next((law for law in own if _is_own(law)), None)
+    if alone is not None and len(best) >= most > 1 and not any(map(_is_own, best)):
+        best[-1] = alone
     return [_proposal(r, groups) for _, r, groups in best]
 
 
