@@ -53,7 +53,7 @@ class Found:
     locator: Locator | None = None
     null: float = 0.0  # log evidence of nothing missing anywhere, over which places have their gain
     reason: str = ""  # why nothing could be located
-    tried: int = 0  # places at which laws were looked for
+    tried: set[str] = field(default_factory=set)  # places at which laws were looked for
     short: bool = False  # whether the best law is of one term
 
 
@@ -80,14 +80,15 @@ def add_laws(
     admitted: Callable[[Site], bool] = lambda site: True,
     most: int = TRIED,
 ) -> None:
-    """Laws at the best places that are `admitted`, up to the `most`-th: those where none has been looked for yet."""
+    """Laws at the best places that are `admitted`, the first `most` and others of their components: those where none
+    has been looked for yet."""
     efforts = simplest([s for s in found.sites if s.place is not None and admitted(s)])
-    for site in efforts[found.tried : most]:
+    for site in [s for s in _to_try(efforts, most) if s.location not in found.tried]:
         enough = found.short and nearly_noise(found.laws[0].fit)
         behind = efforts[0].gain - site.gain > INDIFFERENT
         if behind and not alike(site, efforts[0]) and (enough or site.gain < WORTH * efforts[0].gain):
             break
-        found.tried += 1
+        found.tried.add(site.location)
         looking(f"a law at {site.location}")
         proposal, single = _law_at(case, amendment, base, found.locator, site, progress)
         if behind and proposal and _terms(proposal) > 1 and found.laws and settled(found.laws[0].fit):
@@ -101,9 +102,20 @@ def add_laws(
             found.short = _terms(proposal) == 1
 
 
+def _to_try(efforts: list[Site], most: int) -> list[Site]:
+    """The first `most` places, and behind them up to as many of the same components: of two equations of one component
+    a law may be short in the one and long in the other."""
+
+    def parts(site: Site) -> set[str]:
+        return {s.instance or s.label for s in site.place.sites}
+
+    first, behind = efforts[:most], efforts[most:]
+    near = set[str]().union(*map(parts, first))
+    return [*first, *[s for s in behind if parts(s) & near][:most]]
+
+
 def alike_first(found: Found) -> int:
-    """How many of the places to be tried an effort of any course does not tell from the best one: of two equations of
-    one component a law may be short in the one and long in the other."""
+    """How many of the places to be tried an effort of any course does not tell from the best one."""
     efforts = simplest(found.sites)
     return sum(alike(site, efforts[0]) for site in efforts[:TRIED])
 

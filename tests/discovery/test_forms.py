@@ -73,10 +73,10 @@ def test_a_law_of_known_form_bears_its_name_in_its_domain_alone(
 def test_what_lags_becomes_a_state_of_the_law_once() -> None:
     twice = Group(("((x1/x1_ref) - lag((x1/x1_ref), {t}))", "lag((x1/x1_ref), {t})"), RELAXING.shapes)
     source = attach(law("W", "K", twice)).definition
-    assert source.count("Real z_1") == 1
-    assert "z_2" not in source
-    assert "t_1*der(z_1) = (x1/x1_ref) - z_1;" in source
-    assert "z_1 = (x1/x1_ref);" in source.partition("initial equation")[2].partition("\nequation")[0]
+    assert source.count("Real lagged_1") == 1
+    assert "lagged_2" not in source
+    assert "t_1*der(lagged_1) = (x1/x1_ref) - lagged_1;" in source
+    assert "lagged_1 = (x1/x1_ref);" in source.partition("initial equation")[2].partition("\nequation")[0]
 
 
 def test_what_swings_becomes_two_states_of_the_law() -> None:

@@ -12,7 +12,7 @@ from lacuna.codegen.units.inference import SECOND
 from lacuna.discovery.efforts.guide import Guided
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws.regression import Regression
-from lacuna.discovery.efforts.laws.terms import counts, groups, saturating
+from lacuna.discovery.efforts.laws.terms import counts, dividing, groups, saturating
 from lacuna.discovery.efforts.laws.variables import MOVES, variables
 from lacuna.discovery.efforts.laws.written import written_differences
 from lacuna.discovery.efforts.located import Locator
@@ -56,6 +56,7 @@ def offered_at(locator: Locator, place: Place, guided: Guided) -> tuple[Regressi
     terms = groups(found, ranges, interval, duration)
     if coefficient:
         terms = [g for g in terms if len(read_by(g, found)) < 2 and len(g.texts) == 1]
+        terms += [g for v in found if v.kind != "rate" for g in dividing(v)]
     if varies:
         terms += [saturating(v) for v in found if v.kind != "rate"]
     terms = [g for g in terms if not _reads_only(g, found, told)]

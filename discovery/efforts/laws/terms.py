@@ -274,6 +274,13 @@ def saturating(v: Variable) -> Group:
     return Group((f"(1/(1 + {{q}}*{v.scaled}^2) - 1)",), (Shape("q", "1", 1.0, 0.01, 100.0, (), 0.9),))
 
 
+def dividing(v: Variable) -> list[Group]:
+    """A coefficient of what lies along a quantity: the stiffness of a rope or a beam, resistances in series."""
+    return [
+        Group((f"1/(1 + {{q}}*abs{v.scaled})",), (Shape("q", "1", q, 0.01, 100.0, (), 0.9 * q),)) for q in (0.5, 5.0)
+    ]
+
+
 def _together(a: Variable, b: Variable, ranges: dict[str, tuple[float, float]], once: bool) -> list[Group]:
     """Products: those that are alike both ways once. Friction whose level goes through zero holds nothing there: it has
     a smooth sign."""
