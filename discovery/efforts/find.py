@@ -21,13 +21,14 @@ from lacuna.discovery.efforts.guide import Guided, guide
 from lacuna.discovery.efforts.instruments import colour_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.laws.screening import proposals
+from lacuna.discovery.efforts.laws.variants import varied
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.efforts.places.sites import SEVERAL
 from lacuna.discovery.fit.evidence import LEFT, astray, nearly_noise, settled
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.lead import joined
-from lacuna.discovery.law.empirical_law import race, simplified, unfitted, varied
+from lacuna.discovery.law.empirical_law import race, simplified, unfitted
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.naming.candidate_fit import SMALL_STEP, nearest
 from lacuna.discovery.naming.comparison import TIE, note_laws, said, score

@@ -18,6 +18,7 @@ from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.trace import left, looking
+from lacuna.discovery.efforts.laws.variants import stuck
 from lacuna.discovery.efforts.places import sites as places
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit, fit, linearised
@@ -25,7 +26,6 @@ from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.law.law import Law, attach, component_of
 from lacuna.discovery.law.law_screen import Effort, Proposal, screened, sites
-from lacuna.discovery.law.law_terms import DRY, Group, Shape, Variable, exponent, stribeck
 from lacuna.discovery.naming.comparison import best_correlation, note_laws, score
 from lacuna.discovery.naming.race import ROUNDS, run_round, still_in
 from lacuna.discovery.naming.screen import Candidate
@@ -170,7 +170,7 @@ def _simpler(proposal: Proposal) -> list[Proposal]:
     covariance = fitted.estimate.covariance(fitted.inflation())
     errors = {f.name: float(np.sqrt(max(covariance[k, k], 0.0))) for k, f in enumerate(fitted.estimate.free)}
     prefix, values = f"{component_of(law)}.", proposal.candidate.attachment.own_values(fitted.point)
-    found = [*_stuck(law, values), *_whole(law, values, errors.get(prefix + "c_1", 0.0))]
+    found = [*stuck(law, values), *_whole(law, values, errors.get(prefix + "c_1", 0.0))]
     for name, shape in law.shapes().items():
         near = [s for s in shape.simple if abs(s - values[name]) < SIGNIFICANT * errors[prefix + name] + 0.02 * s]
         found += [_with_fixed(law, values, name, s) for s in near]
@@ -205,72 +205,6 @@ def _with_fixed(law: Law, values: dict[str, float], name: str, value: float) -> 
     texts = tuple(text.replace("(1*", "(") for text in texts)
     groups[k] = replace(groups[k], texts=texts, shapes=tuple(s for s in groups[k].shapes if s.name != shape))
     return Proposal(Law(law.site, tuple(groups)), {n: v for n, v in values.items() if n != name})
-
-
-def varied(best: Proposal) -> list[Proposal]:
-    """A fitted law with any exponent in the place of one that physics has, with dry friction that truly sticks in that
-    of a steep one, with one that falls from rest on in that of a level one, or with a sign as steep as the data says;
-    one group at a time."""
-    law, values = best.law, best.candidate.attachment.own_values(best.candidate.fit.point)
-    found = [*_stuck(law, values), *_falling(law, values), *_steep(law, values)]
-    for n, group in enumerate(law.groups):
-        text = group.texts[0]
-        linear = re.fullmatch(r"\((\w+)/\w+_ref\)", text)
-        power = re.search(r"(?<=abs)(\(\w+/\w+_ref\))\^([\d.]+)$", text)
-        if len(group.texts) > 1 or group.shapes or not (linear or power):
-            continue
-        start = float(power[2]) if power else 1.0
-        freed = f"{text[: power.start(2)]}{{p}}" if power else f"sign({linear[1]})*abs{text}^{{p}}"
-        groups = (*law.groups[:n], Group((freed,), (exponent(start),)), *law.groups[n + 1 :])
-        found.append(Proposal(Law(law.site, groups), values | {f"p_{n + 1}": start}))
-    return found
-
-
-def _stuck(law: Law, values: dict[str, float]) -> list[Proposal]:
-    return [
-        _sticking(law, values, n, v) for n, g in enumerate(law.groups) for v in law.site.variables
-        if v.sticks and g.texts == (f"tanh({{q}}*{v.scaled})",)
-    ]  # fmt: skip
-
-
-def _steep(law: Law, values: dict[str, float]) -> list[Proposal]:
-    """The law with a smooth sign of any steepness in the place of a variable's own: under load what creeps near zero is
-    told by it."""
-    found, steepness = [], Shape("q", "1", 50.0, 0.5, 5e3, (), 40.0)  # from that of DRY
-    for n, group in enumerate(law.groups):
-        for v in law.site.variables if len(group.texts) == 1 and not group.shapes else ():
-            smooth = f"tanh({{q}}*{v.scaled})"
-            text = group.texts[0].replace(v.dry, smooth).replace(DRY.format(x=v.scaled), smooth)
-            if text != group.texts[0]:
-                groups = (*law.groups[:n], Group((text,), (steepness,)), *law.groups[n + 1 :])
-                found.append(Proposal(Law(law.site, groups), values | {f"q_{n + 1}": steepness.start}))
-    return found
-
-
-def _falling(law: Law, values: dict[str, float]) -> list[Proposal]:
-    """The law with a Stribeck curve in the place of dry friction of one level, which breaks away by a part higher, at
-    several speeds that it falls over: fits end in dips, where what sticks slips a sample later."""
-    found = []
-    for n, group in enumerate(law.groups):
-        for v in (v for v in law.site.variables if v.sticks and group.texts == (v.dry,)):
-            changed = Law(law.site, (*law.groups[:n], stribeck(v, steep=True), *law.groups[n + 1 :]))
-            at = sum(len(g.texts) for g in law.groups[:n])  # of its terms
-            numbers = [values[c] for c, _, _ in law.numbered()]
-            numbers.insert(at + 1, numbers[at])
-            start = {n: x for n, x in values.items() if not n.startswith("c_")}
-            start |= {c: x for (c, _, _), x in zip(changed.numbered(), numbers, strict=True)}
-            start[f"p_{n + 1}"], higher, speed = 1.5, changed.numbered()[at + 1][0], f"q_{n + 1}"
-            found += [
-                Proposal(changed, start | {higher: part * numbers[at], speed: q})
-                for part in (0.25, 0.5) for q in (0.03, 0.1, 0.3)
-            ]  # fmt: skip
-    return found
-
-
-def _sticking(law: Law, values: dict[str, float], n: int, speed: Variable) -> Proposal:
-    """The law with dry friction that sticks in the place of group n, which is as good as that where it is steep."""
-    groups = [*law.groups[:n], Group((speed.dry,)), *law.groups[n + 1 :]]
-    return Proposal(Law(law.site, tuple(groups)), {name: v for name, v in values.items() if name != f"q_{n + 1}"})
 
 
 def _without(law: Law, values: dict[str, float], k: int) -> Proposal:

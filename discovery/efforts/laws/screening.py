@@ -30,8 +30,8 @@ def proposals(
 ) -> Iterator[list[Proposal]]:
     """Laws of one group of terms at a place, then, where `strained` ones are wanted, such as parameters would have to
     leave their beliefs for, then of two groups; `most` of each, the most telling first, each list found when it is
-    asked for. Of the quantities in which an effort does the same there those of each by itself at last: where parameters
-    are far off, what a law in one of them promises says little beside what it promises in another.
+    asked for. At last those in each of the quantities in which an effort does the same there: where parameters are far
+    off, what a law in one of them promises says little beside what it promises in another.
 
     Along a run that an effort of a smooth course leads, a stiff contact is met too early or too late; to first order
     parameters stand for that, and a fit puts them back.

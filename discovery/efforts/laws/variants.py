@@ -1,0 +1,88 @@
+"""Laws like one that was fitted: which of them has the right form, fits from there say."""
+
+from __future__ import annotations
+
+import re
+
+from lacuna.discovery.law.law import Law
+from lacuna.discovery.law.law_screen import Proposal
+from lacuna.discovery.law.law_terms import DRY, Group, Shape, Variable, exponent, stribeck
+
+
+def varied(best: Proposal) -> list[Proposal]:
+    """A fitted law with any exponent in the place of one that physics has, with dry friction that truly sticks in that
+    of a steep one, with one that falls from rest on in that of a level one, with a sign as steep as the data says, or
+    with a zero elsewhere of what divides it; one group at a time."""
+    law, values = best.law, best.candidate.attachment.own_values(best.candidate.fit.point)
+    found = [*stuck(law, values), *_falling(law, values), *_steep(law, values), *_from_elsewhere(law, values)]
+    for n, group in enumerate(law.groups):
+        text = group.texts[0]
+        linear = re.fullmatch(r"\((\w+)/\w+_ref\)", text)
+        power = re.search(r"(?<=abs)(\(\w+/\w+_ref\))\^([\d.]+)$", text)
+        if len(group.texts) > 1 or group.shapes or not (linear or power):
+            continue
+        start = float(power[2]) if power else 1.0
+        freed = f"{text[: power.start(2)]}{{p}}" if power else f"sign({linear[1]})*abs{text}^{{p}}"
+        groups = (*law.groups[:n], Group((freed,), (exponent(start),)), *law.groups[n + 1 :])
+        found.append(Proposal(Law(law.site, groups), values | {f"p_{n + 1}": start}))
+    return found
+
+
+def _from_elsewhere(law: Law, values: dict[str, float]) -> list[Proposal]:
+    """The law divided by a length that begins elsewhere than where it is counted from, at first by a tenth of it."""
+    found, part = [], 10.0
+    for n, group in enumerate(law.groups):
+        if length := re.fullmatch(r"1/(\(\w+/\w+_ref\))", group.texts[0]):
+            longer = Group((f"1/(1 + {{q}}*abs{length[1]})",), (Shape("q", "1", part, 0.01, 100.0),))
+            amount = f"c_{1 + sum(len(g.texts) for g in law.groups[:n])}"
+            start = values | {amount: part * values[amount], f"q_{n + 1}": part}
+            found.append(Proposal(Law(law.site, (*law.groups[:n], longer, *law.groups[n + 1 :])), start))
+    return found
+
+
+def stuck(law: Law, values: dict[str, float]) -> list[Proposal]:
+    """The law with dry friction that truly sticks in the place of a steep one."""
+    return [
+        _sticking(law, values, n, v) for n, g in enumerate(law.groups) for v in law.site.variables
+        if v.sticks and g.texts == (f"tanh({{q}}*{v.scaled})",)
+    ]  # fmt: skip
+
+
+def _steep(law: Law, values: dict[str, float]) -> list[Proposal]:
+    """The law with a smooth sign of any steepness in the place of a variable's own: under load what creeps near zero is
+    told by it."""
+    found, steepness = [], Shape("q", "1", 50.0, 0.5, 5e3, (), 40.0)  # from that of DRY
+    for n, group in enumerate(law.groups):
+        for v in law.site.variables if len(group.texts) == 1 and not group.shapes else ():
+            smooth = f"tanh({{q}}*{v.scaled})"
+            text = group.texts[0].replace(v.dry, smooth).replace(DRY.format(x=v.scaled), smooth)
+            if text != group.texts[0]:
+                groups = (*law.groups[:n], Group((text,), (steepness,)), *law.groups[n + 1 :])
+                found.append(Proposal(Law(law.site, groups), values | {f"q_{n + 1}": steepness.start}))
+    return found
+
+
+def _falling(law: Law, values: dict[str, float]) -> list[Proposal]:
+    """The law with a Stribeck curve in the place of dry friction of one level, which breaks away by a part higher, at
+    several speeds that it falls over: fits end in dips, where what sticks slips a sample later."""
+    found = []
+    for n, group in enumerate(law.groups):
+        for v in (v for v in law.site.variables if v.sticks and group.texts == (v.dry,)):
+            changed = Law(law.site, (*law.groups[:n], stribeck(v, steep=True), *law.groups[n + 1 :]))
+            at = sum(len(g.texts) for g in law.groups[:n])  # of its terms
+            numbers = [values[c] for c, _, _ in law.numbered()]
+            numbers.insert(at + 1, numbers[at])
+            start = {n: x for n, x in values.items() if not n.startswith("c_")}
+            start |= {c: x for (c, _, _), x in zip(changed.numbered(), numbers, strict=True)}
+            start[f"p_{n + 1}"], higher, speed = 1.5, changed.numbered()[at + 1][0], f"q_{n + 1}"
+            found += [
+                Proposal(changed, start | {higher: part * numbers[at], speed: q})
+                for part in (0.25, 0.5) for q in (0.03, 0.1, 0.3)
+            ]  # fmt: skip
+    return found
+
+
+def _sticking(law: Law, values: dict[str, float], n: int, speed: Variable) -> Proposal:
+    """The law with dry friction that sticks in the place of group n, which is as good as that where it is steep."""
+    groups = [*law.groups[:n], Group((speed.dry,)), *law.groups[n + 1 :]]
+    return Proposal(Law(law.site, tuple(groups)), {name: v for name, v in values.items() if name != f"q_{n + 1}"})
