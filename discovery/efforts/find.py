@@ -8,7 +8,7 @@ one at another place: an effort of any course, by which places are ranked, does 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from lacuna.discovery.catalogue.trace import left, looking
 from lacuna.discovery.efforts.guide import Guided, guide
 from lacuna.discovery.efforts.instruments import colour_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
+from lacuna.discovery.efforts.laws.begun import begun_at
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.laws.variants import varied
 from lacuna.discovery.efforts.located import Locator, Site
@@ -30,7 +31,6 @@ from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.lead import joined
 from lacuna.discovery.law.empirical_law import race, simplified, unfitted
 from lacuna.discovery.law.law_screen import Proposal
-from lacuna.discovery.naming.candidate_fit import SMALL_STEP, nearest
 from lacuna.discovery.naming.comparison import TIE, note_laws, said, score
 from lacuna.discovery.naming.race import NEAR
 from lacuna.discovery.naming.screen import Candidate
@@ -196,7 +196,7 @@ def _law_at(
     for tried, guided in _offered(locator, site, progress):
         for proposal in tried:
             progress(f"fitting a law at {site.location}: {proposal.law.text()}")
-            proposal.candidate = _begun(case, amendment, base, proposal, guided.point)
+            proposal.candidate = begun_at(case, amendment, base, proposal, guided.point)
         begun += [p.candidate for p in tried]
         race(case, base, [p.candidate for p in tried if p.candidate is not None], best and best.candidate)
         if best is None:
@@ -216,18 +216,6 @@ def _law_at(
         return None, None
     apart = best is not single and _terms(best) > 1
     return simplified(case, amendment, base, best), single.candidate if apart and single else None
-
-
-def _begun(case: Case, amendment: Amendment, base: Fit, proposal: Proposal, led: dict[str, float]) -> Candidate | None:
-    """A screened law where its fit begins: with parameters as they were `led` or as the base has them, or with little
-    of it, whichever misses by least: a law that is a little off puts free swings out of step."""
-    candidate = unfitted(case, amendment, base, proposal.law, proposal.start, led)
-    if candidate is None:
-        return None
-    here = candidate.start | base.point
-    amounts = [candidate.attachment.full_name(c) for c, _, _ in proposal.law.numbered()]
-    little = here | {n: SMALL_STEP * here[n] for n in amounts}
-    return replace(candidate, start=nearest(case, base, candidate, candidate.start, here, little))
 
 
 def _near(fitted: list[Proposal], best: Proposal, base: Fit) -> list[Proposal]:
