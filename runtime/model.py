@@ -12,6 +12,7 @@ from lacuna.runtime.errors import SimulationError, UnknownNameError
 from lacuna.runtime.library import OF_TIME, STORAGE, TYPES, library
 
 MESSAGE_SIZE = 600
+CARRIER = "new "  # begins the names of the generator's own variables, as it does no name in Modelica
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,10 +91,10 @@ class Model:
 
     @cached_property
     def variables(self) -> dict[str, Variable]:
-        """All variables by full name, in order of declaration."""
+        """All declared variables by full name, in order of declaration."""
         d = self._descriptor
         rows = (self._variable(i, d.variables[i]) for i in range(d.n_variables))
-        return {v.name: v for v in rows}
+        return {v.name: v for v in rows if not v.name.startswith(CARRIER)}
 
     def _variable(self, row: int, v) -> Variable:
         kind = STORAGE[v.storage]

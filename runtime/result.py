@@ -214,7 +214,7 @@ class Result:
         f = self._lib.rt_result_failure(self._handle).contents
         if not f.status:
             return None
-        name = list(self.model.variables)[f.variable] if f.variable >= 0 else None
+        name = next((n for n, v in self.model.variables.items() if v.row == f.variable), None)
         file = f.file.decode("utf-8", "replace") if f.file else None
         return Failure(STATUS[f.status], f.time, name, file, f.line or None, f.message.decode("utf-8", "replace"))
 

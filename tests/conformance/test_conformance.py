@@ -60,6 +60,7 @@ def test_conforms(path: Path) -> None:
     compiled = compile_model(str(path), search_path=[])
     result = simulate(Model(compiled.path), stop=1.0, rtol=1e-9, interval=0.05)
     assert result.complete, result.failure
+    assert all(" " not in name or "'" in name for name in result.model.variables), "a name that no model declares"
     for name, at, value in expected(wanted["value"]):
         constant = result.parameters.get(name)
         column = result[name] if constant is None else np.full(len(result.time), constant)

@@ -170,9 +170,14 @@ class Inheritance:
 
     def _refuse_unknown(self, modifier: Modifier, elements: dict[str, Element], cls: ast.Class) -> None:
         for name, child in modifier.children.items():
-            if name not in elements and own_or_inherited(self._context.library, cls, name) is None:
+            if name in elements:
+                continue
+            if own_or_inherited(self._context.library, cls, name) is None:
                 hint = did_you_mean(name, elements, f"{cls.name} has {', '.join(list(elements)[:10]) or 'no elements'}")
                 raise Diagnostic("R032", f"{cls.path} has no element {name} to modify", child.span, hint)
+            if child.value is not None:
+                hint = did_you_mean(name, elements, f"modify what is in it: {name}(...)")
+                raise Diagnostic("R032", f"{name} is a class of {cls.path} and has no value", child.span, hint)
 
     def _refuse_final(self, cls: ast.Class, modifier: Modifier, others: set[str]) -> None:
         """Nothing of a class that is final is modified (7.2.6). Raises R031."""

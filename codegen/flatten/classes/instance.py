@@ -234,7 +234,7 @@ class Instance:
         return self._record
 
     def _elements_of(self, cls: ast.Class) -> dict[str, Element]:
-        return Instance(self.context, cls, "", None, None).elements
+        return Instance(self.context, with_inner_classes(cls, self, self.context), "", None, None).elements
 
     def _outer(self, declaration: ast.Component, scope: Scope) -> Node:
         """The inner component that an outer one means. Raises R013 where none can be, R076 where it does not fit."""

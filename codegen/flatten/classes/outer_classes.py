@@ -17,12 +17,12 @@ class _Outer(dict[int, dict[str, ast.Class]]):
 
 def with_inner_classes(cls: ast.Class, around: Component | None, context: Context) -> ast.Class:
     """`cls` of a component inside `around`, with what is meant in place of its outer classes. Raises R013 where nothing
-    is, R076 for an outer class that is modified. Where no component is known (in functions) the declared ones stand."""
+    is, R076 for an outer class that is modified. Where they were found before, they are what is meant there."""
     known = context.table(_Outer)
     if id(cls) not in known:
         known[id(cls)] = _outer_classes(context.library, cls)
         context.library.kept.append(cls)
-    declared = known[id(cls)]
+    declared = {name: outer for name, outer in known[id(cls)].items() if name not in cls.redeclared}
     if not declared:
         return cls
     meant = {name: _inner(context.library, outer, around) for name, outer in declared.items()}
