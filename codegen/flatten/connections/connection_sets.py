@@ -35,7 +35,7 @@ class ConnectionSets:
             keys = [(origin, p.end.name) for p in (a, b)]
             self.sources.join(*keys)
             for key, part in zip(keys, (a, b), strict=True):
-                self.causal[key] = (part, span)
+                self.causal.setdefault(key, (part, span))
         else:
             self.outside.update((origin, p.end.name) for p in (a, b) if p.end.outside)
 
@@ -53,6 +53,7 @@ class ConnectionSets:
         """Raises R077 where two outputs drive one signal (9.3), or none a signal of a bus (9.1.3)."""
         for group in self.sources.groups():
             driving = [self.causal[key] for key in group if _is_source(self.causal[key][0])]
+            driving = [(part, span) for part, span in driving if not _may_be_read(part)]
             if len(driving) > 1:
                 names = " and ".join(part.end.name for part, _ in driving)
                 hint = "one output drives a signal: remove a connection"
@@ -64,7 +65,7 @@ class ConnectionSets:
             parts = [part for part, _ in members if not part.leaf.open_ended]
             brought = [(part, span) for part, span in members if part.leaf.open_ended]
             if brought and not any(map(_drives_a_bus, parts)):
-                part, span = next((m for m in brought if not m[0].leaf.relayed), brought[0])
+                part, span = next((m for m in brought if not _is_relayed(m[0])), brought[0])
                 hint = "connect an output to it"
                 raise Diagnostic("R077", f"nothing drives {part.end.name}: only inputs are connected to it", span, hint)
 
@@ -74,9 +75,18 @@ def _drives_a_bus(part: Part) -> bool:
     return _is_source(part) or (part.leaf.declaration.protected and part.leaf.causality == "output")
 
 
+def _may_be_read(part: Part) -> bool:
+    """What an own bus has because something inside reads it: it comes from outside where nothing inside drives it."""
+    return part.leaf.open_ended and part.end.outside and part.leaf.causality == "input"
+
+
+def _is_relayed(part: Part) -> bool:
+    return part.end.name in part.leaf.relayed
+
+
 def _is_source(part: Part) -> bool:
     """An output of a component, or an input of the model itself that can be connected from outside."""
-    if part.leaf.relayed:
+    if _is_relayed(part):
         return False
     outside = part.end.outside
     return part.leaf.causality == ("input" if outside else "output") and not (

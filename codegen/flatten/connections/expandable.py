@@ -14,10 +14,15 @@ from lacuna.codegen.flatten.expressions.lower import lower_scalar
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier
 from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.names.values import indices
 from lacuna.codegen.symbolic.expr import INTEGER
 from lacuna.codegen.syntax import ast
 
 Connections = list[tuple[ast.Connect, Scope]]
+
+
+class Brought(set[tuple[str, str]]):
+    """What connections brought to expandable connectors: (path of the connector, name)."""
 
 
 def expand(connections: Connections, buses: Iterable[Instance], context: Context) -> None:
@@ -73,14 +78,45 @@ def _along(ref: ast.Ref, scope: Scope) -> Iterator[Node]:
 
 
 def _owner(ref: ast.Ref, scope: Scope) -> Instance | None:
-    """The expandable connector that lacks the last name of `ref`; None where there is nothing missing."""
+    """The expandable connector that lacks the last name of `ref`, or the element that it means of what connections
+    brought by elements; None where there is nothing missing."""
+    owner = _bus(ref, scope)
+    have = None if owner is None else owner.child(ref.names[-1])
+    return owner if have is None or _lacks(owner, have, ref, scope) else None
+
+
+def _bus(ref: ast.Ref, scope: Scope) -> Instance | None:
+    """The expandable connector that `ref` names something of."""
     if len(ref.names) < 2:
         return None
     part = replace(ref, names=ref.names[:-1], subscripts=ref.subscripts[:-1])
     owners = _resolved(part, scope)
     if len(owners) != 1 or not isinstance(owners[0], Instance) or not owners[0].cls.expandable:
         return None
-    return owners[0] if owners[0].child(ref.names[-1]) is None else None
+    return owners[0]
+
+
+def _lacks(owner: Instance, have: Node, ref: ast.Ref, scope: Scope) -> bool:
+    """Whether what connections brought has too few elements for the last subscripts of `ref`."""
+    subscripts, shape = ref.subscripts[-1], _shape(have)
+    if subscripts is None or (owner.name, ref.names[-1]) not in owner.context.table(Brought):
+        return False
+    return len(subscripts) == len(shape) and any(
+        _number(s, scope) > size for s, size in zip(subscripts, shape, strict=True)
+    )
+
+
+def _shape(node: Node) -> tuple[int, ...]:
+    return node.shape if isinstance(node, (Leaf, ArrayNode)) else ()
+
+
+def _number(subscript: ast.Expression, scope: Scope) -> int:
+    return int(known(lower_scalar(subscript, scope, INTEGER), scope, subscript.span, "the subscript").value)
+
+
+def _adopt(owner: Instance, name: str, node: Node) -> None:
+    owner.context.table(Brought).add((owner.name, name))
+    owner.adopt(name, node)
 
 
 def _resolved(ref: ast.Ref, scope: Scope) -> list[Connector]:
@@ -125,12 +161,36 @@ def _share(giver: Instance, taker: Instance) -> bool:
         if have is None and taker.cls.expandable and not isinstance(node, Absent):
             taken = _like(node, name, taker)
             for leaf in _leaves(taken):
-                leaf.relayed = True
-            taker.adopt(name, taken)
+                leaf.relayed.update(leaf.names)
+            _adopt(taker, name, taken)
+            changed = True
+        elif _grown(node, have, taker, name):
             changed = True
         elif isinstance(node, Instance) and isinstance(have, Instance) and node.cls.expandable:
             changed = _share(node, have) or changed
     return changed
+
+
+def _grown(node: Node, have: Node | None, taker: Instance, name: str) -> bool:
+    """Give `taker` the elements of an array that only the connector it is connected with has: each is augmented by what
+    is declared in the other one alone (9.1.3), element by element."""
+    wanted, own = _shape(node), _shape(have)
+    brought = (taker.name, name) in taker.context.table(Brought)
+    if not brought or len(wanted) != len(own) or all(w <= o for w, o in zip(wanted, own, strict=True)):
+        return False
+    shape = tuple(map(max, wanted, own))
+    if isinstance(node, Leaf) and isinstance(have, Leaf):
+        larger = _leaf(have, name, taker, shape)
+        larger.relayed = have.relayed | (set(larger.names) - set(have.names))
+        _adopt(taker, name, larger)
+    elif isinstance(node, ArrayNode) and isinstance(have, ArrayNode) and len(shape) == 1:
+        more = [_like(n, f"{name}[{k + 1}]", taker) for k, n in enumerate(node.items) if k >= own[0]]
+        for leaf in (leaf for item in more for leaf in _leaves(item)):
+            leaf.relayed.update(leaf.names)
+        _adopt(taker, name, ArrayNode(have.name, shape, [*have.items, *more], have.index_types))
+    else:
+        return False
+    return True
 
 
 def _leaves(node: Node) -> Iterator[Leaf]:
@@ -145,17 +205,24 @@ def _leaves(node: Node) -> Iterator[Leaf]:
 def _add(owner: Instance, ref: ast.Ref, found: list[Connector], scope: Scope, connections: Connections) -> None:
     name, first = ref.names[-1], found[0]
     shape: tuple[int, ...] = (len(found),) if len(found) > 1 else ()
-    if ref.subscripts[-1] is not None:
-        shape = _largest(owner, name, connections)
+    elements = _elements(owner, name, connections) if ref.subscripts[-1] is not None else set()
+    have = owner.child(name)
+    if elements:
+        shape = tuple(map(max, zip(*elements, *filter(None, [_shape(have)]), strict=True)))
     node = first[0] if isinstance(first, tuple) else first
     if isinstance(node, Leaf):
         whole = not isinstance(first, tuple)
-        owner.adopt(name, _leaf(node, name, owner, node.shape if whole and not shape else shape))
+        _adopt(owner, name, _leaf(node, name, owner, node.shape if whole and not shape else shape))
     elif shape:
         items = [_like(node, f"{name}[{k + 1}]", owner) for k in range(shape[0])]
-        owner.adopt(name, ArrayNode(owner.path_of(name), shape, items, (None,)))
+        _adopt(owner, name, ArrayNode(owner.path_of(name), shape, items, (None,)))
     else:
-        owner.adopt(name, _like(node, name, owner))
+        _adopt(owner, name, _like(node, name, owner))
+    if elements:
+        _relay_others(owner.child(name), elements)
+    before = set[str]().union(*(leaf.relayed for leaf in _leaves(have))) if have is not None else set()
+    for leaf in _leaves(owner.child(name)):
+        leaf.relayed |= before & set(leaf.names)
     if (
         isinstance(node, Leaf)
         and node.causality == "input"
@@ -163,21 +230,26 @@ def _add(owner: Instance, ref: ast.Ref, found: list[Connector], scope: Scope, co
         and (node.instance is scope.instance and owner.parent is scope.instance)
     ):  # what its own input brings goes out by its own bus
         for leaf in _leaves(owner.child(name)):
-            leaf.relayed = True
+            leaf.relayed.update(leaf.names)
 
 
-def _largest(owner: Instance, name: str, connections: Connections) -> tuple[int, ...]:
-    """The size of an array that connections name by its elements: the largest subscript of each dimension."""
-    sizes: list[int] = []
-    for item, scope in connections:
-        for ref in (item.left, item.right):
-            if ref.names[-1] != name or ref.subscripts[-1] is None or _owner(ref, scope) is not owner:
-                continue
-            for k, subscript in enumerate(ref.subscripts[-1]):
-                number = known(lower_scalar(subscript, scope, INTEGER), scope, subscript.span, "the subscript").value
-                sizes += [0] * (k + 1 - len(sizes))
-                sizes[k] = max(sizes[k], int(number))
-    return tuple(sizes)
+def _relay_others(node: Node, elements: set[tuple[int, ...]]) -> None:
+    """Elements that no connection names here are there because others have them (9.1.3)."""
+    if isinstance(node, Leaf):
+        node.relayed |= {n for n, at in zip(node.names, indices(node.shape), strict=True) if at not in elements}
+    elif isinstance(node, ArrayNode):
+        for item in (item for k, item in enumerate(node.items) if (k + 1,) not in elements):
+            for leaf in _leaves(item):
+                leaf.relayed.update(leaf.names)
+
+
+def _elements(owner: Instance, name: str, connections: Connections) -> set[tuple[int, ...]]:
+    """The elements of an array that connections name, by their subscripts."""
+    return {
+        tuple(_number(subscript, scope) for subscript in ref.subscripts[-1])
+        for item, scope in connections for ref in (item.left, item.right)
+        if ref.names[-1] == name and ref.subscripts[-1] is not None and _bus(ref, scope) is owner
+    }  # fmt: skip
 
 
 def _like(node: Node, name: str, owner: Instance) -> Node:

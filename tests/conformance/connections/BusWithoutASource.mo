@@ -1,5 +1,5 @@
 // section: 9.1.3
-// refuse: R077 16
+// refuse: R077 15
 model BusWithoutASource "Inputs alone are connected to a signal of the bus"
   expandable connector Bus
   end Bus;
