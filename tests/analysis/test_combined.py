@@ -13,6 +13,7 @@ from lacuna.analysis.recording.recordings import Refusal
 from lacuna.analysis.settings import load_settings
 from lacuna.analysis.severity.combined.assessment import assess_both
 from lacuna.analysis.severity.combined.estimate import JointEstimator
+from lacuna.analysis.severity.combined.figures import draw_estimate
 from lacuna.analysis.severity.combined.grid import GRID_FILE, Grid, build_grid, load_grid, other_fault
 from lacuna.analysis.severity.combined.report import write_studies
 from lacuna.analysis.severity.combined.study import run_study
@@ -66,6 +67,18 @@ def test_faults_with_one_and_the_same_effect_are_not_told_apart():
     assert found.correlation < -0.99
     assert not found.first.readable and not found.second.readable
     assert found.first.high - found.first.low > 0.4
+
+
+@pytest.mark.parametrize("first", [0.0, 0.5])
+@pytest.mark.parametrize("second", [0.0, 0.5])
+def test_a_reading_at_the_end_of_an_axis_lies_in_its_own_interval(first, second):
+    """A healthy actuator read 0 below an interval that began a little above it: no figure, no row of a history."""
+    estimator = JointEstimator(linear_grid(100 * U, 100 * V))
+    found = estimator.estimate(100 * (first * U + second * V))
+    for reading, truth in zip((found.first, found.second), (first, second), strict=True):
+        assert reading.severity == pytest.approx(truth, abs=1e-6)
+        assert reading.low <= reading.severity <= reading.high and reading.readable
+    assert draw_estimate(estimator, found)
 
 
 def test_what_neither_explains_is_not_covered():
