@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 import json
+import shutil
 
 import numpy as np
 import pytest
@@ -136,3 +137,12 @@ def test_a_truncated_map_is_refused(tmp_path, folder, share):
 def test_an_unknown_fault_is_answered_with_those_there_are(tmp_path):
     with pytest.raises(AnalysisError, match=r"no .*combined.* fault rust; there is friction, short, backlash"):
         other_fault(load_settings(), "rust")
+
+
+def test_settings_that_were_changed_after_the_map_was_made_are_refused(tmp_path, folder):
+    """Severities, bands and spectra of one text were read into a grid of another without a word."""
+    shutil.copytree(folder, tmp_path / "map")
+    settings = tmp_path / "map" / "settings.toml"
+    settings.write_text(settings.read_text().replace("last = 0.5", "last = 0.4", 1), encoding="utf-8")
+    with pytest.raises(AnalysisError, match="changed since the map was made"):
+        load_grid(tmp_path / "map")
