@@ -12,6 +12,9 @@ from lacuna.runtime.errors import SimulationError, UnknownNameError
 from lacuna.runtime.library import OF_TIME, STORAGE, TYPES, library
 
 MESSAGE_SIZE = 600
+CARRIER = (
+    "new "  # begins the name of what carries a value to another variable (codegen/flatten/equations/algorithms.py)
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,14 +124,15 @@ class Model:
     def declared(self) -> list[str]:
         """Names of all variables that are not declared as parameters or constants: those that equal another one, and
         those that parameters alone decide, too."""
-        return [name for name, v in self.variables.items() if not v.is_parameter]
+        return [name for name, v in self.variables.items() if not v.is_parameter and not name.startswith(CARRIER)]
 
     @cached_property
     def recordable(self) -> list[str]:
-        """Everything that may change with time, each once: of several aliases the first stands for all."""
+        """Everything that may change with time, each once: of several aliases the first stands for all. What only
+        carries a value within an event, and has no name that a modeller can write, is left out."""
         first: dict[tuple[str, int], str] = {}
         for name, v in self.variables.items():
-            if v.kind != "parameter":
+            if v.kind != "parameter" and not name.startswith(CARRIER):
                 first.setdefault((v.kind, v.index), name)
         return list(first.values())
 
