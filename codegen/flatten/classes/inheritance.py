@@ -170,9 +170,16 @@ class Inheritance:
 
     def _refuse_unknown(self, modifier: Modifier, elements: dict[str, Element], cls: ast.Class) -> None:
         for name, child in modifier.children.items():
-            if name not in elements and own_or_inherited(self._context.library, cls, name) is None:
+            nested = None if name in elements else own_or_inherited(self._context.library, cls, name)
+            valued = nested is not None and child.value is not None and child.redeclare is None
+            if valued or (nested is None and name not in elements):
                 hint = did_you_mean(name, elements, f"{cls.name} has {', '.join(list(elements)[:10]) or 'no elements'}")
-                raise Diagnostic("R032", f"{cls.path} has no element {name} to modify", child.span, hint)
+                what = (
+                    f"no element {name} to modify"
+                    if nested is None
+                    else f"a {nested.kind} {name}: a class has no value"
+                )
+                raise Diagnostic("R032", f"{cls.path} has {what}", child.span, hint)
 
     def _refuse_final(self, cls: ast.Class, modifier: Modifier, others: set[str]) -> None:
         """Nothing of a class that is final is modified (7.2.6). Raises R031."""
