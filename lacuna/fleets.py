@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from lacuna.degradation import degradation_laws
 from lacuna.extras import names_missing_packages
-from lacuna.prognosis import OPTIONS, files_of, limits_of, map_settings
+from lacuna.prognosis import OPTIONS, files_of, limits_of, map_settings, own_names
 from lacuna.progress import Progress, silent
 from lacuna.written import write_whole
 
@@ -44,7 +44,7 @@ def fleet(
     from lacuna.analysis.prognosis.pages.overview import overview
 
     settings = map_settings(map)
-    read = _histories(histories)
+    read = tracks(_histories(histories), own_names(settings))
     limits = {fault: limits_of(settings, fault).only_last() for fault in {h.fault for h in read}}
     work = FleetWork(Bank(degradation_laws(laws)), limits, Options(risk, horizon, LISTED))
     folder, tell = Path(out), progress or silent

@@ -14,6 +14,7 @@ from lacuna.analysis.prognosis.filter.bank import Bank
 from lacuna.analysis.prognosis.forecast import Forecast, Limits, Options, forecasts
 from lacuna.analysis.prognosis.history import FILES, Assess, History, read_histories
 from lacuna.analysis.prognosis.pages.telling import counted_verdicts, forecast_json, sentence, urgency
+from lacuna.analysis.prognosis.tracks import tracks
 from lacuna.analysis.settings import PAPER, Settings, load_settings
 from lacuna.dated_cases import explained
 from lacuna.degradation import degradation_laws
@@ -96,6 +97,7 @@ def forecast(
         inputs = files_of(history)
         read = diagnoses.Reader(limits or {}, explained(kept, progress))
         history = _read(history, assessor(map, columns, unfiltered), unit, read)
+    history = tracks(history, () if limits else own_names(settings))
     bank = Bank(degradation_laws(laws))
     faults = {h.fault for h in history}
     if limits and not faults <= set(limits):
@@ -137,12 +139,17 @@ def map_settings(map: Path | str | None) -> Settings:
     return load_settings(file)
 
 
+def own_names(settings: Settings) -> tuple[str, str]:
+    """What the fault of the settings may be called in a history, where it is not left empty."""
+    return settings.fault.symbol, settings.fault.parameter
+
+
 def limits_of(settings: Settings, fault: str = "") -> Limits:
     """Where the bands after the first begin; for another fault of the settings, by its symbol, its own limits."""
     own = settings.fault
     bands = settings.bands[1:]
     names = tuple(band.name for band in bands)
-    if fault in ("", own.symbol, own.parameter):
+    if fault in ("", *own_names(settings)):
         begins = tuple(band.first for band in bands)
         return Limits(names, begins, own.first, own.last, own.healthy, own.unit, own.scale)
     others = {entry["symbol"]: entry for entry in settings.raw.get("combined", [])}

@@ -191,6 +191,10 @@ def _check_bands(settings: Settings) -> None:
     for band in settings.bands:
         if not band.first <= band.last:
             raise AnalysisError(f"{settings.path}: band {band.name}: first is above last")
+    for other in settings.raw.get("combined", []):
+        if "limits" in other and len(other["limits"]) != len(settings.bands) - 1:
+            place, wanted = f"{settings.path}: [[combined]] {other['symbol']}", len(settings.bands) - 1
+            raise AnalysisError(f"{place}: limits are where the bands after the first begin: {wanted} are needed")
     for before, band in pairwise(settings.bands):
         if not before.last < band.first:
             raise AnalysisError(f"{settings.path}: band {band.name} does not begin above the end of {before.name}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 import json
+import shutil
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from lacuna.analysis.recording.recordings import Refusal
 from lacuna.analysis.settings import load_settings
 from lacuna.analysis.severity.combined.assessment import assess_both
 from lacuna.analysis.severity.combined.estimate import JointEstimator
+from lacuna.analysis.severity.combined.figures import draw_estimate
 from lacuna.analysis.severity.combined.grid import GRID_FILE, Grid, build_grid, load_grid, other_fault
 from lacuna.analysis.severity.combined.report import write_studies
 from lacuna.analysis.severity.combined.study import run_study
@@ -66,6 +68,18 @@ def test_faults_with_one_and_the_same_effect_are_not_told_apart():
     assert found.correlation < -0.99
     assert not found.first.readable and not found.second.readable
     assert found.first.high - found.first.low > 0.4
+
+
+@pytest.mark.parametrize("first", [0.0, 0.5])
+@pytest.mark.parametrize("second", [0.0, 0.5])
+def test_a_reading_at_the_end_of_an_axis_lies_in_its_own_interval(first, second):
+    """A healthy actuator read 0 below an interval that began a little above it: no figure, no row of a history."""
+    estimator = JointEstimator(linear_grid(100 * U, 100 * V))
+    found = estimator.estimate(100 * (first * U + second * V))
+    for reading, truth in zip((found.first, found.second), (first, second), strict=True):
+        assert reading.severity == pytest.approx(truth, abs=1e-6)
+        assert reading.low <= reading.severity <= reading.high and reading.readable
+    assert draw_estimate(estimator, found)
 
 
 def test_what_neither_explains_is_not_covered():
@@ -123,3 +137,12 @@ def test_a_truncated_map_is_refused(tmp_path, folder, share):
 def test_an_unknown_fault_is_answered_with_those_there_are(tmp_path):
     with pytest.raises(AnalysisError, match=r"no .*combined.* fault rust; there is friction, short, backlash"):
         other_fault(load_settings(), "rust")
+
+
+def test_settings_that_were_changed_after_the_map_was_made_are_refused(tmp_path, folder):
+    """Severities, bands and spectra of one text were read into a grid of another without a word."""
+    shutil.copytree(folder, tmp_path / "map")
+    settings = tmp_path / "map" / "settings.toml"
+    settings.write_text(settings.read_text().replace("last = 0.5", "last = 0.4", 1), encoding="utf-8")
+    with pytest.raises(AnalysisError, match="changed since the map was made"):
+        load_grid(tmp_path / "map")

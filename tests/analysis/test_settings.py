@@ -93,6 +93,7 @@ limits = [0.2, 0.3, 0.4]
         ('"friction"', '"x/../../evil"', r"combined\[1\].symbol is 'x/../../evil', not a name of letters"),
         ("step = 0.1\n", "step = 0.2\n", r"\[\[combined\]\] friction goes from 0.1 to 0.4, no whole steps of 0.2"),
         ("healthy = 0.1", "healthy = 5.0", "friction: healthy is 5, outside of 0.1 to 0.4"),
+        ("[0.2, 0.3, 0.4]", "[0.2]", "friction: limits are where the bands after the first begin: 3 are needed"),
         ("[0.2, 0.3, 0.4]", "[0.9, 0.2, 0.3]", "friction: limits must rise from above 0.1 to at most 0.4: "),
         ("[0.2, 0.3, 0.4]", "[0.3, 0.2, 0.4]", "friction: limits must rise from above 0.1 to at most 0.4: "),
         ("[[combined]]", OTHER + "[[combined]]", r"two \[\[combined\]\] have the symbol friction: rename one"),

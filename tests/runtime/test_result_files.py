@@ -74,3 +74,12 @@ def test_a_number_in_csv_is_short_and_exact(result: runtime.Result, tmp_path: Pa
     np.testing.assert_array_equal(columns["j"], -result["i"])
     assert path.read_text(encoding="utf-8").splitlines()[1] == "0,1,-1,1"
     assert list(meta["columns"]) == ["time", "i", "j", "high"]
+
+
+def test_what_carries_a_value_within_an_event_is_not_recorded(tmp_path: Path) -> None:
+    """`new x[1]` stood beside x[1] in the results."""
+    text = "model Register\n  Integer x[2](each start=0, each fixed=true);\nalgorithm\n  when sample(0.1, 0.2) then\n"
+    file = tmp_path / "Register.mo"
+    file.write_text(f"{text}    x := {{x[2] + 1, x[1]}};\n  end when;\nend Register;\n", encoding="utf-8")
+    model = runtime.Model(compile_model(str(file)).path)
+    assert model.recordable == model.declared == ["x[1]", "x[2]"]

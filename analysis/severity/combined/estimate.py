@@ -79,7 +79,12 @@ class JointEstimator:
 
 
 def _reading(axis: np.ndarray, weight: np.ndarray) -> Reading:
-    """Mean and 95 % interval of a density that is piecewise constant about the nodes of `axis`."""
+    """Mean and 95 % interval of a density that is piecewise constant about the nodes of `axis`.
+
+    The interval is widened to its mean, which lies beyond it where nearly all weight is on the first node or the last.
+    """
     edges = np.concatenate([axis[:1], (axis[1:] + axis[:-1]) / 2, axis[-1:]])
     low, high = np.interp([0.025, 0.975], np.concatenate([[0.0], np.cumsum(weight)]), edges)
-    return Reading(float(weight @ axis), float(low), float(high), bool(high - low <= READABLE * (axis[-1] - axis[0])))
+    mean = float(weight @ axis)
+    low, high = min(float(low), mean), max(float(high), mean)
+    return Reading(mean, low, high, high - low <= READABLE * float(axis[-1] - axis[0]))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+import hashlib
 from itertools import product
 import os
 from pathlib import Path
@@ -96,14 +97,20 @@ def build_grid(
     starts = np.array([start_of(plant, settings, float(severity)) for severity in x])
     arrays = {"x": x, "y": y, "mean": mean, "covariance": covariance, "starts": starts}
     with whole_files(folder) as scratch:
-        np.savez(scratch / GRID_FILE, other=other.symbol, **arrays)
+        np.savez(scratch / GRID_FILE, other=other.symbol, settings=_digest(settings), **arrays)
         (scratch / SETTINGS_FILE).write_text(settings.text, encoding="utf-8")
     return Grid(settings, other, **arrays)
 
 
 def load_grid(folder: Path) -> Grid:
-    """Raises AnalysisError where a file is missing or damaged."""
+    """Raises AnalysisError where a file is missing or damaged, or the settings are no longer those of the map."""
     settings = load_settings(folder / SETTINGS_FILE)
-    arrays = load_arrays(folder / GRID_FILE, ("other", "x", "y", "mean", "covariance", "starts"))
+    arrays = load_arrays(folder / GRID_FILE, ("other", "settings", "x", "y", "mean", "covariance", "starts"))
+    if str(arrays.pop("settings")) != _digest(settings):
+        raise AnalysisError(f"{settings.path} was changed since the map was made: undo that, or make the map again")
     other = other_fault(settings, str(arrays.pop("other")))
     return Grid(settings, other, **arrays)
+
+
+def _digest(settings: Settings) -> str:
+    return hashlib.sha256(settings.text.encode()).hexdigest()

@@ -35,7 +35,7 @@ def check_components(
     """
     if body.branches:
         return
-    count = _Count(context.table(ConnectionSets), body, context.table(Carried))
+    count = _Count(context, body)
     for leaf in leaves:
         if not leaf.is_structural and leaf.primitive not in ("String", EXTERNAL):
             count.add(leaf)
@@ -86,16 +86,18 @@ def _is_connector(leaf: Leaf) -> bool:
 class _Count:
     """Equations and unknowns of each model and block, by the path of the component."""
 
-    def __init__(self, sets: ConnectionSets, body: Collected, carried: Carried) -> None:
+    def __init__(self, context: Context, body: Collected) -> None:
+        sets = context.table(ConnectionSets)
         self.instances: dict[str, Instance] = {}
         self.equations: Counter[str] = Counter(e.origin for e in body.equations)
         self.unknowns: Counter[str] = Counter()
         self.defaults: Counter[str] = Counter()  # what a class gives its own inputs: an equation, or a value by default
         self._connected = sets.outside
+        carried = context.table(Carried)  # hold what is assigned to elements for a while: no unknowns of a class
         for when in body.whens:
-            self.equations[when.origin] += len(set(assigned([when])) - carried.keys())
+            self.equations[when.origin] += len(set(assigned([when])).difference(carried))
         for algorithm in body.algorithms:
-            self.equations[algorithm.origin] += len(set(algorithm.targets) - carried.keys())
+            self.equations[algorithm.origin] += len(set(algorithm.targets).difference(carried))
         for group in sets.sources.groups():
             self.equations[group[0][0]] += len(group) - 1
 
