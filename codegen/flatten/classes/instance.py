@@ -234,7 +234,7 @@ class Instance:
         return self._record
 
     def _elements_of(self, cls: ast.Class) -> dict[str, Element]:
-        return Instance(self.context, cls, "", None, None).elements
+        return Inheritance(self.context, self, cls, None).elements  # of no component: its outer classes are as declared
 
     def _outer(self, declaration: ast.Component, scope: Scope) -> Node:
         """The inner component that an outer one means. Raises R013 where none can be, R076 where it does not fit."""
