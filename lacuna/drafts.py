@@ -62,6 +62,7 @@ def convert(recording: str | Path, out: str | Path, *, progress: Progress | None
 
     Raises UserError where `out` is there already or its format is only read.
     """
+    from lacuna.analysis.recording.channel import not_rising
     from lacuna.analysis.recording.formats import read_recorded, write_recorded
 
     out = Path(out)
@@ -72,4 +73,5 @@ def convert(recording: str | Path, out: str | Path, *, progress: Progress | None
     found = read_recorded(recording)
     tell(f"writing {out}")
     write_recorded(found, out)
-    return found.notes
+    disorder = dict.fromkeys(reason for c in found.channels if (reason := not_rising(c.time)))
+    return (*found.notes, *disorder)

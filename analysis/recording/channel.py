@@ -23,6 +23,12 @@ class RecordingError(AnalysisError):
 EXACT = 2**53  # whole numbers up to which a Real holds every one
 
 
+def not_rising(time: np.ndarray) -> str:
+    """Where times [n] do not increase from one sample to the next, as a sentence; "" where they all do."""
+    stays = np.flatnonzero(np.diff(time) <= 0)
+    return f"time does not increase after sample {stays[0] + 1} ({time[stays[0]]:.6g} s)" if len(stays) else ""
+
+
 @dataclass(frozen=True)
 class Channel:
     """`time` [n] in s, rising; `values` [n] in `unit` ("" where the file says none); NaN where a sample is missing.

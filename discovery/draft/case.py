@@ -9,6 +9,7 @@ import shutil
 
 import numpy as np
 
+from lacuna.analysis.recording.channel import not_rising
 from lacuna.analysis.recording.heads import Head
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.library.search_path import search_path, split_name
@@ -47,6 +48,9 @@ def new_case(name: str, data: Sequence[Path], out: Path, libraries: Sequence[Pat
         raise CaseError("no recordings are given")
     model = Model(compile_model(name, search_path=search_path(libraries)).path)
     recorded = _distinct([read_recording(path) for path in data])
+    for one in recorded:
+        if reason := not_rising(one.time):
+            raise CaseError(f"{one.name}: {reason}; was it written with too few digits?")
     matches = matched(_common_heads(recorded), _targets(model))
     recorded = [_kelvins(one, matches) for one in recorded]
     matches = matched(recorded[0].heads, _targets(model))

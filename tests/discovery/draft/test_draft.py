@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import lacuna
 from lacuna.analysis.recording.channel import RecordingError
 from lacuna.analysis.recording.formats import read_recorded
 from lacuna.analysis.recording.heads import read_head
@@ -206,6 +207,10 @@ def test_nothing_is_written_where_something_is_wrong(plate: Path, tmp_path: Path
     volts = logged(tmp_path / "c.csv", "time,z [V]", lambda k: f"{k},{k % 7}")
     with pytest.raises(CaseError, match=r"no column of c.csv fits"):
         new_case(str(plate), [volts], tmp_path / "case")
+    short = logged(tmp_path / "d.csv", "time [s],T [K]", lambda k: f"{1.7e9 + k:.6e},{293 + k % 7}")
+    with pytest.raises(CaseError, match=r"d.csv: time does not increase after sample 1 .* too few digits"):
+        new_case(str(plate), [short], tmp_path / "case")
+    assert lacuna.convert(short, tmp_path / "e.csv")[-1].startswith("time does not increase after sample 1 ")
     assert not (tmp_path / "case").exists()
     new_case(str(plate), [good], tmp_path / "case")
     with pytest.raises(CaseError, match="is there already"):
