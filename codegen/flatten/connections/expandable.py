@@ -99,7 +99,9 @@ def _bus(ref: ast.Ref, scope: Scope) -> Instance | None:
 def _lacks(owner: Instance, have: Node, ref: ast.Ref, scope: Scope) -> bool:
     """Whether what connections brought has too few elements for the last subscripts of `ref`."""
     subscripts, shape = ref.subscripts[-1], _shape(have)
-    if subscripts is None or (owner.name, ref.names[-1]) not in owner.context.table(Brought):
+    if subscripts is None or any(isinstance(s, ast.Colon | ast.Range) for s in subscripts):
+        return False
+    if (owner.name, ref.names[-1]) not in owner.context.table(Brought):
         return False
     return len(subscripts) == len(shape) and any(
         _number(s, scope) > size for s, size in zip(subscripts, shape, strict=True)
