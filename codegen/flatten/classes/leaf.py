@@ -44,7 +44,9 @@ class Leaf:
         self.causality = declaration.causality or found.causality or instance.causality
         self.flow, self.stream = declaration.flow or instance.flow, declaration.stream or instance.stream
         self.open_ended = instance.open_ended  # in an expandable connector: its direction follows from the connections
-        self.relayed = False  # a connected expandable connector brought it: nothing here says who drives it
+        self.relayed: frozenset[str] = (
+            frozenset()
+        )  # scalars of a bus that another bus brought: who drives them is there
         if shape:
             self.names = tuple(f"{name}[{','.join(map(str, i))}]" for i in indices(shape))
         else:

@@ -64,7 +64,7 @@ class ConnectionSets:
             parts = [part for part, _ in members if not part.leaf.open_ended]
             brought = [(part, span) for part, span in members if part.leaf.open_ended]
             if brought and not any(map(_drives_a_bus, parts)):
-                part, span = next((m for m in brought if not m[0].leaf.relayed), brought[0])
+                part, span = next((m for m in brought if m[0].end.name not in m[0].leaf.relayed), brought[0])
                 hint = "connect an output to it"
                 raise Diagnostic("R077", f"nothing drives {part.end.name}: only inputs are connected to it", span, hint)
 
@@ -76,7 +76,7 @@ def _drives_a_bus(part: Part) -> bool:
 
 def _is_source(part: Part) -> bool:
     """An output of a component, or an input of the model itself that can be connected from outside."""
-    if part.leaf.relayed:
+    if part.end.name in part.leaf.relayed:
         return False
     outside = part.end.outside
     return part.leaf.causality == ("input" if outside else "output") and not (

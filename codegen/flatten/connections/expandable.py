@@ -74,13 +74,19 @@ def _along(ref: ast.Ref, scope: Scope) -> Iterator[Node]:
 
 def _owner(ref: ast.Ref, scope: Scope) -> Instance | None:
     """The expandable connector that lacks the last name of `ref`; None where there is nothing missing."""
+    holder = _holder(ref, scope)
+    return holder if holder is not None and holder.child(ref.names[-1]) is None else None
+
+
+def _holder(ref: ast.Ref, scope: Scope) -> Instance | None:
+    """The expandable connector that the last name of `ref` is looked for in, if there is one."""
     if len(ref.names) < 2:
         return None
     part = replace(ref, names=ref.names[:-1], subscripts=ref.subscripts[:-1])
     owners = _resolved(part, scope)
     if len(owners) != 1 or not isinstance(owners[0], Instance) or not owners[0].cls.expandable:
         return None
-    return owners[0] if owners[0].child(ref.names[-1]) is None else None
+    return owners[0]
 
 
 def _resolved(ref: ast.Ref, scope: Scope) -> list[Connector]:
@@ -102,8 +108,8 @@ def _expand_one(item: ast.Connect, scope: Scope, all_of_them: Connections) -> bo
             if found:
                 _add(owner, ref, found, scope, all_of_them)
             return bool(found)
+    changed = [_grown(ref, scope) for ref in (item.left, item.right)] != [False, False]
     left, right = connectors(item.left, scope), connectors(item.right, scope)
-    changed = False
     for a, b in zip(left, right, strict=False):
         if isinstance(a, Instance) and isinstance(b, Instance) and (a.cls.expandable or b.cls.expandable):
             if not (a.cls.expandable and b.cls.expandable):
@@ -113,6 +119,14 @@ def _expand_one(item: ast.Connect, scope: Scope, all_of_them: Connections) -> bo
             changed = _share(a, b) or changed
             changed = _share(b, a) or changed
     return changed
+
+
+def _grown(ref: ast.Ref, scope: Scope) -> bool:
+    """Whether an array of an expandable connector gets the element that `ref` names: other connections named fewer."""
+    subscripts, holder = ref.subscripts[-1], _holder(ref, scope)
+    if holder is None or not subscripts or any(isinstance(s, ast.Colon | ast.Range) for s in subscripts):
+        return False
+    return _grow(holder, ref.names[-1], _element_number(ref, scope))
 
 
 def _share(giver: Instance, taker: Instance) -> bool:
@@ -125,12 +139,47 @@ def _share(giver: Instance, taker: Instance) -> bool:
         if have is None and taker.cls.expandable and not isinstance(node, Absent):
             taken = _like(node, name, taker)
             for leaf in _leaves(taken):
-                leaf.relayed = True
-            taker.adopt(name, taken)
+                leaf.relayed = frozenset(leaf.names)
+            _bring(taker, name, taken)
             changed = True
         elif isinstance(node, Instance) and isinstance(have, Instance) and node.cls.expandable:
             changed = _share(node, have) or changed
+        else:
+            changed = _grow(taker, name, _shape(node)) or changed
     return changed
+
+
+def _shape(node: Node) -> tuple[int, ...]:
+    return node.shape if isinstance(node, Leaf | ArrayNode) else ()
+
+
+def _grow(owner: Instance, name: str, shape: tuple[int, ...]) -> bool:
+    """Give an array that connections brought to an expandable connector the elements that `shape` has besides: each is
+    there by itself (9.1.3). What is declared keeps its size. Whether anything is new."""
+    node = owner.child(name)
+    have = _shape(node)
+    wanted = tuple(map(max, have, shape))
+    if len(have) != len(shape) or wanted == have or name not in owner.context.table(Brought).get(id(owner), set()):
+        return False
+    if isinstance(node, Leaf):
+        new: Node = _leaf(node, name, owner, wanted)
+        new.relayed = node.relayed | set(new.names).difference(node.names)
+    else:
+        more = [_like(node.items[0], f"{name}[{k + 1}]", owner) for k in range(have[0], wanted[0])]
+        for leaf in (leaf for item in more for leaf in _leaves(item)):
+            leaf.relayed = frozenset(leaf.names)
+        new = ArrayNode(owner.path_of(name), wanted, [*node.items, *more], node.index_types)
+    owner.adopt(name, new)
+    return True
+
+
+class Brought(dict[int, set[str]]):
+    """What is in expandable connectors by connections alone, by the identities of these."""
+
+
+def _bring(owner: Instance, name: str, node: Node) -> None:
+    owner.context.table(Brought).setdefault(id(owner), set()).add(name)
+    owner.adopt(name, node)
 
 
 def _leaves(node: Node) -> Iterator[Leaf]:
@@ -145,17 +194,21 @@ def _leaves(node: Node) -> Iterator[Leaf]:
 def _add(owner: Instance, ref: ast.Ref, found: list[Connector], scope: Scope, connections: Connections) -> None:
     name, first = ref.names[-1], found[0]
     shape: tuple[int, ...] = (len(found),) if len(found) > 1 else ()
+    numbers: list[tuple[int, ...]] = []
     if ref.subscripts[-1] is not None:
-        shape = _largest(owner, name, connections)
+        numbers = _numbers(owner, name, connections)
+        shape = tuple(map(max, zip(*numbers, strict=True)))
     node = first[0] if isinstance(first, tuple) else first
     if isinstance(node, Leaf):
         whole = not isinstance(first, tuple)
-        owner.adopt(name, _leaf(node, name, owner, node.shape if whole and not shape else shape))
+        _bring(owner, name, _leaf(node, name, owner, node.shape if whole and not shape else shape))
     elif shape:
         items = [_like(node, f"{name}[{k + 1}]", owner) for k in range(shape[0])]
-        owner.adopt(name, ArrayNode(owner.path_of(name), shape, items, (None,)))
+        _bring(owner, name, ArrayNode(owner.path_of(name), shape, items, (None,)))
     else:
-        owner.adopt(name, _like(node, name, owner))
+        _bring(owner, name, _like(node, name, owner))
+    if numbers:
+        _relay_others(owner.child(name), {f"{owner.path_of(name)}[{','.join(map(str, n))}]" for n in numbers})
     if (
         isinstance(node, Leaf)
         and node.causality == "input"
@@ -163,21 +216,29 @@ def _add(owner: Instance, ref: ast.Ref, found: list[Connector], scope: Scope, co
         and (node.instance is scope.instance and owner.parent is scope.instance)
     ):  # what its own input brings goes out by its own bus
         for leaf in _leaves(owner.child(name)):
-            leaf.relayed = True
+            leaf.relayed = frozenset(leaf.names)
 
 
-def _largest(owner: Instance, name: str, connections: Connections) -> tuple[int, ...]:
-    """The size of an array that connections name by its elements: the largest subscript of each dimension."""
-    sizes: list[int] = []
+def _relay_others(array: Node, named: set[str]) -> None:
+    """Elements that nothing here connects to are driven from elsewhere, if they are."""
+    items = array.items if isinstance(array, ArrayNode) else [array]
+    for leaf in (leaf for item in items if item.name not in named for leaf in _leaves(item)):
+        leaf.relayed = frozenset(leaf.names) - named
+
+
+def _numbers(owner: Instance, name: str, connections: Connections) -> list[tuple[int, ...]]:
+    """The elements of an array of `owner` that connections name."""
+    found = []
     for item, scope in connections:
         for ref in (item.left, item.right):
-            if ref.names[-1] != name or ref.subscripts[-1] is None or _owner(ref, scope) is not owner:
-                continue
-            for k, subscript in enumerate(ref.subscripts[-1]):
-                number = known(lower_scalar(subscript, scope, INTEGER), scope, subscript.span, "the subscript").value
-                sizes += [0] * (k + 1 - len(sizes))
-                sizes[k] = max(sizes[k], int(number))
-    return tuple(sizes)
+            if ref.names[-1] == name and ref.subscripts[-1] is not None and _holder(ref, scope) is owner:
+                found.append(_element_number(ref, scope))
+    return found
+
+
+def _element_number(ref: ast.Ref, scope: Scope) -> tuple[int, ...]:
+    numbers = [known(lower_scalar(s, scope, INTEGER), scope, s.span, "the subscript") for s in ref.subscripts[-1]]
+    return tuple(int(n.value) for n in numbers)
 
 
 def _like(node: Node, name: str, owner: Instance) -> Node:
