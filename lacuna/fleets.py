@@ -42,6 +42,7 @@ def fleet(
     from lacuna.analysis.prognosis.fleet import FleetWork, run_fleet
     from lacuna.analysis.prognosis.forecast import Options
     from lacuna.analysis.prognosis.pages.overview import overview
+    from lacuna.analysis.prognosis.tracks import tracks
 
     settings = map_settings(map)
     read = tracks(_histories(histories), own_names(settings))

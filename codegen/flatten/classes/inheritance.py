@@ -171,15 +171,11 @@ class Inheritance:
     def _refuse_unknown(self, modifier: Modifier, elements: dict[str, Element], cls: ast.Class) -> None:
         for name, child in modifier.children.items():
             nested = None if name in elements else own_or_inherited(self._context.library, cls, name)
-            valued = nested is not None and child.value is not None and child.redeclare is None
-            if valued or (nested is None and name not in elements):
-                hint = did_you_mean(name, elements, f"{cls.name} has {', '.join(list(elements)[:10]) or 'no elements'}")
-                what = (
-                    f"no element {name} to modify"
-                    if nested is None
-                    else f"a {nested.kind} {name}: a class has no value"
-                )
-                raise Diagnostic("R032", f"{cls.path} has {what}", child.span, hint)
+            if name in elements or (nested is not None and (child.value is None or child.redeclare is not None)):
+                continue
+            hint = did_you_mean(name, elements, f"{cls.name} has {', '.join(list(elements)[:10]) or 'no elements'}")
+            what = f"a {nested.kind} {name}: a class has no value" if nested else f"no element {name} to modify"
+            raise Diagnostic("R032", f"{cls.path} has {what}", child.span, hint)
 
     def _refuse_final(self, cls: ast.Class, modifier: Modifier, others: set[str]) -> None:
         """Nothing of a class that is final is modified (7.2.6). Raises R031."""
