@@ -63,7 +63,7 @@ def _histories(source: Path | str) -> list[Any]:
     if "://" in str(source) or Path(source).suffix in (".db", ".sqlite"):
         from lacuna.analysis.prognosis.store import Store
 
-        return Store(source).histories()
+        return Store(source, read=True).histories()
     path = Path(source)
     path = next((path / name for name in reversed(FILES) if (path / name).exists()), path) if path.is_dir() else path
     if path.suffix == ".parquet":

@@ -122,7 +122,7 @@ def _read(source: Path | str, assess: Assess | None, unit: str | None, diagnosed
     if "://" in str(source) or Path(source).suffix in (".db", ".sqlite"):
         from lacuna.analysis.prognosis.store import Store
 
-        return list(Store(source).histories(unit))
+        return list(Store(source, read=True).histories(unit))
     histories: list[History] = read_histories(source, assess, unit, diagnosed)
     if diagnosed.healthy and not diagnosed.limits:
         raise AnalysisError(f"{source}: which quantity has what limit? There are {diagnosed.drifts(histories)}")

@@ -109,16 +109,19 @@ class Entry:
 
 
 class Store:
-    """Opens, and where needed makes or brings up to date, the store at `url`; a path stands for a SQLite file.
+    """Opens, and where needed makes or brings up to date, the store at `url`; a path stands for a SQLite file, which is
+    not made where the store is only `read`.
 
     Raises AnalysisError where the database cannot be reached, is damaged, or was written by a newer version.
     """
 
-    def __init__(self, url: str | Path):
+    def __init__(self, url: str | Path, *, read: bool = False):
         self.url = str(url)
         try:
             place = sa.make_url(self.url) if "://" in self.url else sa.URL.create("sqlite", database=self.url)
             own = {"timeout": WAIT} if place.get_backend_name() == "sqlite" else {}
+            if read and own and place.database and not Path(place.database).exists():
+                raise AnalysisError(f"{_hidden(self.url)}: there is no such file")
             self._engine = sa.create_engine(place, connect_args=own)
         except (SQLAlchemyError, ModuleNotFoundError, ValueError) as error:
             raise AnalysisError(f"{_hidden(self.url)}: not a database that can be used: {error}") from None

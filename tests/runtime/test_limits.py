@@ -99,3 +99,10 @@ def test_end_stops_in_the_wrong_order_are_refused_with_both(tmp_path: Path) -> N
     assert str(result.failure).endswith(
         "EndStops: phi_min must be below phi_max (stops.phi_min = 0.2 rad, stops.phi_max = 0.1 rad)"
     )
+
+
+@pytest.mark.parametrize("value", [math.inf, -math.inf])
+def test_an_infinite_number_is_refused_as_one(limits: runtime.Model, value: float) -> None:
+    """It was told of a Real that it is of whole numbers."""
+    with pytest.raises(runtime.SimulationError, match=r"parameter lo cannot be -?inf: it is of finite numbers"):
+        runtime.simulate(limits, stop=1, parameters={"lo": value})

@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 from sqlalchemy import create_engine, text
 
+from lacuna import fleet, forecast
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis import store as module
 from lacuna.analysis.prognosis.history import read_histories
@@ -167,6 +168,13 @@ def test_outdated_are_recordings_that_are_still_there(tmp_path):
     assert [e.cycles for e in store.outdated("map 2")] == [10.0] and store.outdated("map 1") == []
     file.write_text("2")
     assert store.outdated("map 2") == []
+
+
+def test_a_store_that_is_only_read_is_not_made(tmp_path):
+    for read in (forecast, fleet):
+        with pytest.raises(AnalysisError, match=r"nosuch\.db: there is no such file"):
+            read(tmp_path / "nosuch.db")
+    assert not list(tmp_path.iterdir())
 
 
 def test_what_is_no_store_is_refused(tmp_path):

@@ -8,6 +8,7 @@ import pytest
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis.history import read_histories
 from lacuna.analysis.prognosis.tracks import tracks
+from lacuna.fleets import fleet
 from lacuna.prognosis import forecast
 
 HEAD = "actuator,cycles,fault,severity,low,high,event\n"
@@ -33,6 +34,7 @@ def test_the_maps_own_fault_may_be_named_or_not(tmp_path):
     assert a.use.tolist() == [1, 2, 3, 4] and a.severity.tolist() == [0.1, 0.2, 0.4, 0.42]
     (said,) = forecast(histories(tmp_path, rows[:4])).sentences
     assert said == "Actuator A has reached violet: remove it now."
+    assert len(fleet(tmp_path, out=tmp_path / "fleet")) == 1
 
 
 def test_a_name_that_all_rows_have_is_kept(tmp_path):
