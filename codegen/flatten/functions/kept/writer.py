@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import groupby
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
@@ -193,7 +192,7 @@ class Writer:
             copies = scalars(self.scope.locals[temporary])
             result += [_store(copy, value, span) for copy, (_, value) in zip(copies, steps, strict=True)]
             steps = [(target, copy) for (target, _), copy in zip(steps, copies, strict=True)]
-        result += _stores(steps, span)
+        result += [_store(target, value, span) for target, value in steps]
 
 
 def _is_left(items: Sequence[ast.Item]) -> bool:
@@ -206,44 +205,8 @@ def _is_left(items: Sequence[ast.Item]) -> bool:
 
 def _read_what_is_set(steps: list[tuple[Expr, Expr]]) -> bool:
     """Does a value read one of the variables that are set together with it?"""
-    names = {name for t, _ in steps for name in _set_by(t)}
+    names = {t.value if t.op == "var" else t.args[0].value for t, _ in steps}
     return any(n.op == "var" and n.value in names for _, v in steps for n in ex.walk(v))
-
-
-def _set_by(target: Expr) -> set[str]:
-    """The variables of which a target is one, or a part of one."""
-    if target.op == "if":
-        return _set_by(target.args[1]) | _set_by(target.args[2])
-    if target.op == "const":  # where the subscript is of no element
-        return set()
-    return {str(target.value if target.op == "var" else target.args[0].value)}
-
-
-def _stores(steps: list[tuple[Expr, Expr]], span: Span) -> list[flat.Statement]:
-    """Targets get their values. An element of an array of records, by a subscript known only at run time, is a choice
-    among all of them: those that are chosen alike, as the fields of one record, are set in one if-statement, so that
-    the choice is made before any is set."""
-    result: list[flat.Statement] = []
-    for condition, alike in groupby(steps, _choice):
-        left, branches = list(alike), []
-        if condition is None:
-            result += [_none(span) if ex.is_nothing(t) else _store(t, v, span) for t, v in left]
-            continue
-        while (condition := _choice(left[0])) and all(_choice(step) is condition for step in left):
-            branches.append((condition, _stores([(t.args[1], v) for t, v in left], span)))
-            left = [(t.args[2], v) for t, v in left]
-        result.append(flat.If([*branches, (TRUE, _stores(left, span))], span))
-    return result
-
-
-def _choice(step: tuple[Expr, Expr]) -> Expr | None:
-    """The condition of the first alternative of a target, None of one that is no choice."""
-    return step[0].args[0] if step[0].op == "if" else None
-
-
-def _none(span: Span) -> flat.Statement:
-    """A subscript that is of no element."""
-    return flat.Assert(FALSE, "a subscript of what is assigned is outside its array", span)
 
 
 def _store(target: Expr, value: Expr, span: Span) -> flat.Statement:
