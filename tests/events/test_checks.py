@@ -138,3 +138,25 @@ def test_a_product_of_integers_that_is_not_exact_ends_the_run(tmp_path: Path, te
         x = (1103515 * x + 12345) % 2**31
     result = simulated(tmp_path, text.replace("FACTOR", "1103515"), stop=0.95)
     assert result.complete and result["x"][-1] == x
+
+
+SET_OUTSIDE = """model Outside
+  record R
+    Real a;
+  end R;
+  function f
+    input Integer k;
+    output R y[2] = fill(R(1), 2);
+  algorithm
+    y[k] := R(2);
+  end f;
+  Integer k = if time > 0.5 then 3 else 1;
+  R y[2] = f(k);
+end Outside;
+"""
+
+
+def test_a_record_that_is_set_outside_of_its_array_ends_the_run(tmp_path: Path) -> None:
+    failure = simulated(tmp_path, SET_OUTSIDE, stop=1.0).failure
+    assert failure is not None and failure.time == pytest.approx(0.5, abs=1e-6)
+    assert "Outside.mo:9: " in str(failure) and "a subscript of y is outside of its array" in str(failure)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.expressions.chosen_texts import choose
+from lacuna.codegen.flatten.expressions.chosen_texts import are_texts, choose
 from lacuna.codegen.flatten.expressions.constants import is_known, known
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import (
@@ -32,7 +32,7 @@ def chosen_value(condition: Expr, then: Value, otherwise: Value, span: Span, sco
     if isinstance(then, Record) and isinstance(otherwise, Record) and then.fields.keys() == otherwise.fields.keys():
         fields = {n: chosen_value(condition, v, otherwise.fields[n], span, scope) for n, v in then.fields.items()}
         return Record(then.name, fields, then.cls)
-    if isinstance(then, Array) and holds_records(then) and holds_records(otherwise):
+    if isinstance(then, Array) and _go_by_items(then, otherwise):
         pairs = zip(then.items, otherwise.items, strict=True)
         return Array(then.shape, tuple(chosen_value(condition, a, b, span, scope) for a, b in pairs))
     if holds_records(then) or holds_records(otherwise):
@@ -48,12 +48,17 @@ def chosen_value(condition: Expr, then: Value, otherwise: Value, span: Span, sco
     return elementwise(pick, [then, otherwise], span, "alternatives")
 
 
+def _go_by_items(then: Value, otherwise: Value) -> bool:
+    """Are they arrays of what is no number: of records, or of Strings?"""
+    return (holds_records(then) and holds_records(otherwise)) or (are_texts(then) and are_texts(otherwise))
+
+
 def merged_value(condition: Expr, then: Value, otherwise: Value, span: Span) -> Value:
     """What a variable of a function holds after an if-statement, by the condition of its branch."""
     if isinstance(then, Record) and isinstance(otherwise, Record):
         fields = {n: merged_value(condition, v, otherwise.fields[n], span) for n, v in then.fields.items()}
         return Record(then.name, fields, then.cls)
-    if isinstance(then, Array) and holds_records(then) and shape_of(then) == shape_of(otherwise):
+    if isinstance(then, Array) and _go_by_items(then, otherwise) and shape_of(then) == shape_of(otherwise):
         pairs = zip(then.items, otherwise.items, strict=True)
         return Array(then.shape, tuple(merged_value(condition, a, b, span) for a, b in pairs))
     if isinstance(then, str | ChosenText) and isinstance(otherwise, str | ChosenText):

@@ -22,7 +22,20 @@ def choose(condition: Expr, then: Text, otherwise: Text) -> Text:
     if condition.op == "const":
         return then if condition.value else otherwise
     first = tuple((ex.logical_and(condition, c), text) for c, text in alternatives(then))
-    return then if then == otherwise else ChosenText((*first, *alternatives(otherwise)))
+    return _each_once((*first, *alternatives(otherwise)))
+
+
+def _each_once(pairs: tuple[tuple[Expr, str], ...]) -> Text:
+    """The String of these alternatives, which are no more than there are texts: sorting chooses again and again."""
+    found: dict[str, Expr] = {}
+    none_before = TRUE
+    for condition, text in pairs:
+        found[text] = ex.logical_or(found.get(text, FALSE), ex.logical_and(none_before, condition))
+        none_before = ex.logical_and(none_before, ex.logical_not(condition))
+    if len(found) == len(pairs):
+        return ChosenText(pairs)
+    *first, last = found
+    return ChosenText((*((found[text], text) for text in first), (TRUE, last))) if first else last
 
 
 def joined(left: Text, right: Text, span: Span) -> Text:

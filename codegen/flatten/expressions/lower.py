@@ -78,7 +78,7 @@ def _conversion(have: str, need: str) -> str:
 def modifier_value(modifier: Modifier) -> Value:
     """The value of a modifier in the scope it was written in, narrowed to its array element."""
     value = modifier.value
-    if not isinstance(value, Expr | str | Array | Record):
+    if not isinstance(value, Value):
         value = lower(value, modifier.scope)
     for position, size in () if modifier.each else modifier.index:
         if not isinstance(value, Array):

@@ -33,6 +33,8 @@ from lacuna.codegen.flatten.names.values import (
     FunctionValue,
     Record,
     Value,
+    expressions_of,
+    is_open,
     scalars,
     shape_of,
     shape_text,
@@ -117,7 +119,7 @@ def _results(signature: Signature, arguments: dict[str, Value], e: ast.Call, sco
     if signature.external is not None and signature.external.external.function not in GENERATORS:
         return call_external(signature, arguments, e, scope)
     items = [a for v in arguments.values() for a in scalars(v)]
-    known = all(isinstance(a, str) or a.op == "const" for a in items)
+    known = not any(is_open(a) for a in items)
     if is_looked_at(scope) and not (known and context.library.foreign_package(cls.span.file)):
         check_body(signature, arguments, context, e.span)
     makes_events = signature.makes_events
@@ -273,9 +275,9 @@ def _eventful(n: Expr) -> bool:
     return n.op in ex.RELATIONS or n.op in ("min", "max") or (n.op == "call" and n.value in _EVENTFUL)
 
 
-def _has_events(arguments: list[Expr | str]) -> bool:
+def _has_events(arguments: list[Value]) -> bool:
     """Would inlining put event-generating arguments under the noEvent of the function's body?"""
-    return any(_eventful(n) for a in arguments if isinstance(a, Expr) for n in ex.walk(a))
+    return any(_eventful(n) for a in arguments for e in expressions_of(a) for n in ex.walk(e))
 
 
 def _without_events(value: Value) -> Value:

@@ -8,7 +8,7 @@ import threading
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.constants import AtRunTime
-from lacuna.codegen.flatten.names.values import Value, scalars
+from lacuna.codegen.flatten.names.values import Value, expressions_of, scalars
 from lacuna.codegen.symbolic.expr import Expr
 
 MAX_NESTED_STEPS = 100_000  # statements of a call and all calls inside it
@@ -56,7 +56,7 @@ def is_small(results: list[Value], arguments: dict[str, Value]) -> bool:
     """Is what a call becomes small enough to stand in its place?"""
     given = {a for v in arguments.values() for a in scalars(v)}
     seen: set[Expr] = set()
-    stack = [s for r in results for s in scalars(r) if isinstance(s, Expr)]
+    stack = [e for r in results for s in scalars(r) for e in expressions_of(s)]
     while stack:
         n = stack.pop()
         if n not in seen and n not in given:

@@ -26,6 +26,7 @@ from lacuna.codegen.flatten.names.values import (
     Record,
     Value,
     integers,
+    is_open,
     items_of,
     scalars,
     shape_of,
@@ -103,7 +104,7 @@ class _Run:
         self.flexible: set[str] = set()  # arrays declared with `:`, which take the size of what is assigned (12.4.5)
         self.once = False
         self.steps = 0
-        symbolic = any(isinstance(s, Expr) and s.op != "const" for v in values.values() for s in scalars(v))
+        symbolic = any(is_open(s) for v in values.values() for s in scalars(v))
         self.symbolic = symbolic
         self.limit = MAX_SYMBOLIC_STEPS if symbolic else MAX_STEPS
 

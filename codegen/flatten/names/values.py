@@ -79,7 +79,7 @@ def shape_text(shape: tuple[int, ...]) -> str:
     return "a scalar" if not shape else "[" + ", ".join(map(str, shape)) + "]"
 
 
-def scalars(value: Value) -> list[Expr | str]:
+def scalars(value: Value) -> list[Expr | str | ChosenText]:
     """Every scalar inside, in order."""
     if isinstance(value, Array):
         plain = not any(isinstance(i, Record) for i in value.items)
@@ -89,6 +89,18 @@ def scalars(value: Value) -> list[Expr | str]:
     if isinstance(value, FunctionValue):
         return [s for bound in value.bound.values() for s in scalars(bound)]
     return [] if isinstance(value, ExternalValue) else [value]
+
+
+def expressions_of(scalar: Expr | str | ChosenText) -> list[Expr]:
+    """The expressions that a scalar is or, of a String, is chosen by."""
+    if isinstance(scalar, ChosenText):
+        return [condition for condition, _ in scalar.alternatives]
+    return [scalar] if isinstance(scalar, Expr) else []
+
+
+def is_open(scalar: Expr | str | ChosenText) -> bool:
+    """Is a scalar no number and no text yet?"""
+    return any(e.op != "const" for e in expressions_of(scalar))
 
 
 def with_scalars(value: Value, new: Iterator[Expr | str]) -> Value:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from lacuna.codegen import flat
@@ -13,6 +13,7 @@ from lacuna.codegen.flatten.expressions.elements import local_value
 from lacuna.codegen.flatten.expressions.lower import lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.functions.fitting import blank, declared_sizes, fit, typed, unknown_target
 from lacuna.codegen.flatten.functions.kept.parts import matched, parts, variables_of
+from lacuna.codegen.flatten.functions.kept.stores import decided, deciding, read_what_is_set, stores
 from lacuna.codegen.flatten.functions.kept.whole_calls import called
 from lacuna.codegen.flatten.functions.locals import Local
 from lacuna.codegen.flatten.names.scope import Scope
@@ -70,7 +71,7 @@ class Writer:
                 continue
             for target, value in matched(variables, given, local.name, span):
                 if isinstance(value, Expr) and value.op != "unset":
-                    self.function.body.append(_store(target, value, span))
+                    self.function.body += stores([(target, value)], span)
 
     def block(self, items: Sequence[ast.Item]) -> list[flat.Statement]:
         result: list[flat.Statement] = []
@@ -186,13 +187,26 @@ class Writer:
         """All targets at once: values that read what is assigned go through temporary variables."""
         steps = [step for (name, target), value in pairs for step in matched(target, value, name, span)]
         steps = [(t, typed(v, t.type, ex.to_text(t), span)) for t, v in steps]
-        if len(steps) > 1 and _read_what_is_set(steps):
-            temporary = self._fresh("before")
-            self.declare(temporary, local_value(temporary, steps[0][0].type, (len(steps),)))
-            copies = scalars(self.scope.locals[temporary])
-            result += [_store(copy, value, span) for copy, (_, value) in zip(copies, steps, strict=True)]
+        places = list(dict.fromkeys(e for target, _ in steps for e in deciding(target)))
+        if len(steps) > 1 and read_what_is_set(places, steps):
+            before = dict(zip(places, self._copied(places, span, result), strict=True))
+            steps = [(decided(target, before), value) for target, value in steps]
+        values = [value for _, value in steps]
+        if len(steps) > 1 and read_what_is_set(values, steps):
+            copies = self._copied(values, span, result)
             steps = [(target, copy) for (target, _), copy in zip(steps, copies, strict=True)]
-        result += [_store(target, value, span) for target, value in steps]
+        result += stores(steps, span)
+
+    def _copied(self, values: list[Expr], span: Span, result: list[flat.Statement]) -> list[Expr]:
+        """Elements of temporary variables, one for each type, that are set to the values."""
+        copies: dict[str, Iterator[Expr]] = {}
+        for kind in dict.fromkeys(value.type for value in values):
+            name = self._fresh("before")
+            self.declare(name, local_value(name, kind, (sum(value.type == kind for value in values),)))
+            copies[kind] = iter(scalars(self.scope.locals[name]))
+        found = [next(copies[value.type]) for value in values]
+        result += stores(zip(found, values, strict=True), span)
+        return found
 
 
 def _is_left(items: Sequence[ast.Item]) -> bool:
@@ -201,15 +215,3 @@ def _is_left(items: Sequence[ast.Item]) -> bool:
         isinstance(item, ast.Break) or (isinstance(item, ast.If) and any(_is_left(body) for _, body in item.branches))
         for item in items
     )
-
-
-def _read_what_is_set(steps: list[tuple[Expr, Expr]]) -> bool:
-    """Does a value read one of the variables that are set together with it?"""
-    names = {t.value if t.op == "var" else t.args[0].value for t, _ in steps}
-    return any(n.op == "var" and n.value in names for _, v in steps for n in ex.walk(v))
-
-
-def _store(target: Expr, value: Expr, span: Span) -> flat.Statement:
-    if target.op == "var":
-        return flat.Assign(str(target.value), value, span)
-    return flat.AssignElement(str(target.args[0].value), target.args[1:], value, span)
