@@ -31,4 +31,6 @@ def at_index(value: Value, index: Expr, inner: int = 0) -> Value | None:
     if not isinstance(value, Expr) or value.op != "call" or value.value != "[]":
         return None
     position = len(value.args) - 1 - inner
+    if position < 1:  # the rows are records, each field of each a variable of its own
+        return None
     return ex.node("call", value.args[:position] + (index,) + value.args[position + 1 :], "[]", value.type)
