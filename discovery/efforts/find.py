@@ -80,18 +80,20 @@ def add_laws(
     progress: Progress,
     admitted: Callable[[Site], bool] = lambda site: True,
     most: int = TRIED,
+    wide: bool = False,
 ) -> None:
-    """Laws at the best places that are `admitted`, the first `most` and others of their components: those where none
-    has been looked for yet."""
+    """Laws at the best places that are `admitted`, up to the `most`-th: those where none has been looked for yet.
+    `wide`: also at others of their components, and in each quantity of a place by itself."""
     efforts = simplest([s for s in found.sites if s.place is not None and admitted(s)])
-    for site in [s for s in _to_try(efforts, most) if s.location not in found.tried]:
+    places = _to_try(efforts, most) if wide else efforts[:most]
+    for site in [s for s in places if s.location not in found.tried]:
         enough = found.short and nearly_noise(found.laws[0].fit)
         behind = efforts[0].gain - site.gain > INDIFFERENT
         if behind and not alike(site, efforts[0]) and (enough or site.gain < WORTH * efforts[0].gain):
             break
         found.tried.add(site.location)
         looking(f"a law at {site.location}")
-        proposal, single = _law_at(case, amendment, base, found.locator, site, progress)
+        proposal, single = _law_at(case, amendment, base, found.locator, site, progress, wide)
         if behind and proposal and _terms(proposal) > 1 and found.laws and settled(found.laws[0].fit):
             left(
                 said(proposal.candidate), "comparison", "no shorter than one that leaves noise where more is explained"
@@ -186,14 +188,14 @@ def _ranked(locator: Locator, base: Fit) -> list[Site]:
 
 
 def _law_at(
-    case: Case, amendment: Amendment, base: Fit, locator: Locator, site: Site, progress: Progress
+    case: Case, amendment: Amendment, base: Fit, locator: Locator, site: Site, progress: Progress, wide: bool = False
 ) -> tuple[Proposal | None, Candidate | None]:
     """The best law at a place: of one group of terms, or of two where one does not leave noise; and, where it is of two
     that are not a level and one term, the best of one."""
     best: Proposal | None = None
     single: Proposal | None = None
     begun: list[Candidate | None] = []
-    for tried, guided in _offered(locator, site, progress):
+    for tried, guided in _offered(locator, site, progress, wide):
         for proposal in tried:
             progress(f"fitting a law at {site.location}: {proposal.law.text()}")
             proposal.candidate = begun_at(case, amendment, base, proposal, guided.point)
@@ -249,12 +251,14 @@ def _join(case: Case, base: Fit, laws: list[Candidate], guided: Guided) -> None:
         first.fit = found
 
 
-def _offered(locator: Locator, site: Site, progress: Progress) -> Iterator[tuple[list[Proposal], Guided]]:
+def _offered(
+    locator: Locator, site: Site, progress: Progress, wide: bool
+) -> Iterator[tuple[list[Proposal], Guided]]:  # fmt: skip
     """Laws to be fitted at a place, as they are asked for, and what they were screened along."""
     try:
         guided = guide(locator, site)
         progress(f"screening laws at {site.location}")
-        for offered in proposals(locator, site, guided, TRIED):
+        for offered in proposals(locator, site, guided, TRIED, apart=wide):
             yield offered, guided
     except (NotNumeric, SimulationError, np.linalg.LinAlgError):
         return

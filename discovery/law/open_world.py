@@ -111,7 +111,7 @@ def _one_by_one(
     progress: Progress,
 ) -> None:  # fmt: skip
     """A law at one place, then others beside it; and two at once where a `pair` of little evidence is left to try."""
-    add_laws(found, search.case, unbegun.amendment, unbegun.fit, progress)
+    add_laws(found, search.case, unbegun.amendment, unbegun.fit, progress, wide=True)
     taken = bool(found.laws) and _take(search, unbegun, found, progress)
     physics = any(not f.ranked.attachment.variable for f in search.findings) and not search.amendment.trackers
     long = taken and not found.short and bool(found.single)

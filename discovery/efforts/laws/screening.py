@@ -26,12 +26,12 @@ SAME = 1e-3  # share of what a law explains, by which another one must differ to
 
 
 def proposals(
-    locator: Locator, site: Site, guided: Guided, most: int, strained: bool = True
+    locator: Locator, site: Site, guided: Guided, most: int, strained: bool = True, apart: bool = False
 ) -> Iterator[list[Proposal]]:
     """Laws of one group of terms at a place, then, where `strained` ones are wanted, such as parameters would have to
     leave their beliefs for, then of two groups; `most` of each, the most telling first, each list found when it is
-    asked for. At last those in each of the quantities in which an effort does the same there: where parameters are far
-    off, what a law in one of them promises says little beside what it promises in another.
+    asked for. In any of the quantities in which an effort does the same there, and at last, where wanted, in each of
+    them `apart`: where parameters are far off, what a law promises in one says little beside another one's promise.
 
     Along a run that an effort of a smooth course leads, a stiff contact is met too early or too late; to first order
     parameters stand for that, and a fit puts them back.
@@ -46,7 +46,7 @@ def proposals(
         yield _forgetting(offered, _best([(r, _refined(r, every, strained=True)) for r, every in offered], most))
     twos = [(r, _doubled(r, groups, every)) for (r, every), groups in zip(offered, ones, strict=True)]
     yield _forgetting(offered, _best(twos, most))
-    for (r, _), one, (_, two) in list(zip(offered, ones, twos, strict=True))[1:] if strained else ():
+    for (r, _), one, (_, two) in list(zip(offered, ones, twos, strict=True))[1:] if apart else ():
         for groups in (one, two):
             yield _forgetting(offered, _best([(r, groups)], most))
 
