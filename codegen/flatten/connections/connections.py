@@ -83,7 +83,8 @@ def _unconnected(sets: ConnectionSets, context: Context) -> list[flat.Equation]:
     equations = []
     for name, (leaf, _) in context.scalars.items():
         flows = leaf.flow and leaf.instance.parent is not None and not leaf.is_structural
-        if flows and End(name, False) not in sets.ends.parent:
+        passing = name in leaf.relayed and End(name, True) not in sets.ends.parent  # only others brought it to a bus
+        if flows and (passing or End(name, False) not in sets.ends.parent):
             span = leaf.instance.span
             text = f"nothing is connected: {name} = 0"
             equations.append(flat.Equation(ex.var(name), ex.ZERO, span, leaf.instance.parent.name, text))
