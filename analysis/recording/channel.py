@@ -123,6 +123,9 @@ def seconds(path: Path, head: Head, values: np.ndarray) -> tuple[np.ndarray, lis
     factor, si = to_si(head.unit or "s")
     if si != "s":
         raise RecordingError(f"{path}: the unit of the time column `{head.text}` is {head.unit}, which is no time")
+    if len(values) > 1 and np.ptp(values) == 0:  # False where one is missing
+        hint = "write more of its digits"
+        raise RecordingError(f"{path}: the time `{head.text}` is the same in all {len(values)} rows: {hint}")
     if blurred(values):
         notes.append(begins_at(f"{values[0]:.17g}", head))
         values = values - values[0]

@@ -77,6 +77,12 @@ def test_times_far_from_zero_keep_all_their_digits(tmp_path: Path, head: str, fi
     assert f"time begins at 0; the file's begins at {first} {'ns' if factor < 1 else 's'}" in recorded.notes
 
 
+def test_a_time_that_never_increases_is_refused(tmp_path: Path) -> None:
+    """Seconds since 1970 in seven digits: all rows were written at 0 s, and lost their times without a word."""
+    with pytest.raises(RecordingError, match=r"the time `time` is the same in all 3 rows: write more of its digits"):
+        read(tmp_path / "r.csv", "time,u\n1.700000e+09,1\n1.700000e+09,2\n1.700000e+09,3\n")
+
+
 def test_clock_times_go_on_past_midnight(tmp_path: Path) -> None:
     text = "t,u\n23:59:59.8,1\n23:59:59.9,2\n00:00:00,3\n00:00:00.1,4\n12:00:00,5\n23:59:59,6\n00:00:00,7\n"
     recorded = read(tmp_path / "r.csv", text)
