@@ -21,11 +21,13 @@ void rt_session_declared(rt_session *s) {
     s->p_run[i] = s->d->p_start[i];
 }
 
-/* A value that v, which is no Real, does not take. */
+/* A value that v does not take: of a Real, one that is not finite. */
 static rt_status refuse_type(rt_session *s, int row, double t, const char *what, double value) {
   const mdl_variable *v = &s->d->variables[row];
-  return rt_fail(s, RT_ARGUMENT, t, row, NULL, "%s %s cannot be %.17g: it is %s", what, v->name, value,
-                 v->type == MDL_BOOLEAN ? "Boolean (0 or 1)" : "of whole numbers below 2^53");
+  const char *type = v->type == MDL_BOOLEAN   ? "Boolean (0 or 1)"
+                     : v->type == MDL_INTEGER ? "of whole numbers below 2^53"
+                                              : "a Real, which is finite";
+  return rt_fail(s, RT_ARGUMENT, t, row, NULL, "%s %s cannot be %.17g: it is %s", what, v->name, value, type);
 }
 
 rt_status rt_session_parameters(rt_session *s, int n, const int *variables, const double *values) {

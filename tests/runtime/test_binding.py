@@ -132,6 +132,7 @@ def test_recorded_input_drives_the_model(bench: runtime.Model):
         ({"parameters": {"w": 1}}, "no parameter that may be set called w"),
         ({"parameters": {"J": -1}}, r"parameter J = -1 is outside its bounds \[1e-12, inf\]"),
         ({"parameters": {"J": float("nan")}}, "parameter J = nan is outside"),
+        ({"parameters": {"J": np.inf}}, "parameter J cannot be inf: it is a Real, which is finite"),
         ({"inputs": {"v": 1.0}}, "no input called v"),
         ({"initial": {"i_phase": 1.0}}, "no state called i_phase"),
         ({"outputs": ["speed"]}, "no variable called speed"),
