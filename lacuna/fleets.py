@@ -61,9 +61,9 @@ def _histories(source: Path | str) -> list[Any]:
     from lacuna.analysis.prognosis.history import FILES, parquet_table, read_histories
 
     if "://" in str(source) or Path(source).suffix in (".db", ".sqlite"):
-        from lacuna.analysis.prognosis.store import Store
+        from lacuna.analysis.prognosis.store import opened
 
-        return Store(source).histories()
+        return opened(source).histories()
     path = Path(source)
     path = next((path / name for name in reversed(FILES) if (path / name).exists()), path) if path.is_dir() else path
     if path.suffix == ".parquet":

@@ -69,9 +69,9 @@ def refresh(
 
     What this map refuses keeps its reading: an AnalysisError names it, after all the others have been read.
     """
-    from lacuna.analysis.prognosis.store import Store
+    from lacuna.analysis.prognosis.store import opened
 
-    again = {entry.recording: entry for entry in Store(store).outdated(map_hash(Path(map)))}
+    again = {entry.recording: entry for entry in opened(store).outdated(map_hash(Path(map)))}
     new, refused = 0, []
     count = counted("assessing again", progress)
     for number, entry in enumerate(again.values()):
@@ -96,9 +96,9 @@ def _again(entry: Entry, map: str | Path, store: str | Path, columns: Sequence[s
 @names_missing_packages
 def export_history(store: str | Path, path: str | Path) -> None:
     """Write the store as a history.csv or .parquet, which `forecast` reads. Needs the extra `history`."""
-    from lacuna.analysis.prognosis.store import Store
+    from lacuna.analysis.prognosis.store import opened
 
-    Store(store).export(Path(path))
+    opened(store).export(Path(path))
 
 
 def map_hash(folder: Path) -> str:

@@ -120,9 +120,9 @@ def files_of(history: Path | str) -> list[Path]:
 def _read(source: Path | str, assess: Assess | None, unit: str | None, diagnosed: diagnoses.Reader) -> list[History]:
     """Of a table or a store. Raises AnalysisError where there are diagnoses and no limit: it tells what drifts."""
     if "://" in str(source) or Path(source).suffix in (".db", ".sqlite"):
-        from lacuna.analysis.prognosis.store import Store
+        from lacuna.analysis.prognosis.store import opened
 
-        return list(Store(source).histories(unit))
+        return list(opened(source).histories(unit))
     histories: list[History] = read_histories(source, assess, unit, diagnosed)
     if diagnosed.healthy and not diagnosed.limits:
         raise AnalysisError(f"{source}: which quantity has what limit? There are {diagnosed.drifts(histories)}")

@@ -238,6 +238,13 @@ class Store:
         partial.replace(path)
 
 
+def opened(url: str | Path) -> Store:
+    """The store at `url`, to read it. Raises AnalysisError, too, where there is no such file: none is made."""
+    if "://" not in str(url) and not Path(url).is_file():
+        raise AnalysisError(f"{url}: there is no such store; `lacuna assess --store` makes one")
+    return Store(url)
+
+
 def _checksum(row: Mapping[str, Any]) -> str:
     """SHA-256 of what an entry holds; empty where a number is none."""
     held = {f.name: row[f.name] for f in fields(Entry)}

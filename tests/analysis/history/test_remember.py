@@ -93,3 +93,11 @@ def test_a_recording_that_a_newer_map_refuses_keeps_its_reading(tmp_path, map_fo
         lacuna.refresh(store, map_folder)
     a, b = Store(store).entries()
     assert a.severity == 0.1 and b.severity == pytest.approx(0.1, abs=0.005)
+
+
+@pytest.mark.parametrize("read", [lacuna.forecast, lacuna.fleet])
+def test_what_reads_a_store_makes_none(tmp_path, read):
+    """A slip in its name left an empty store of that name, which was said to hold no assessment."""
+    with pytest.raises(AnalysisError, match=r"slip\.db: there is no such store"):
+        read(tmp_path / "slip.db", out=tmp_path / "out")
+    assert not (tmp_path / "slip.db").exists()
