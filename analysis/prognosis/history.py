@@ -220,7 +220,7 @@ class _Reader:
         if not name:
             return [(fault, math.nan, math.nan, math.nan, "")]
         if assess is None:
-            raise self.error(f"{name} has to be assessed, which needs the actuator's map (--map)")
+            raise self.error(f"{name} has to be assessed, which `lacuna forecast` does by the actuator's map (--map)")
         path = self.file.parent / name
         if not path.exists():
             raise self.error(f"recording {name} is missing")
