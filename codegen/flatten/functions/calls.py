@@ -19,6 +19,7 @@ from lacuna.codegen.flatten.names.index_types import plain_type
 from lacuna.codegen.flatten.names.scope import (
     Scope,
     base_class,
+    base_classes,
     find_class,
     find_first,
     own_or_inherited,
@@ -117,8 +118,7 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
         raise Diagnostic("R091", f"{name} is outside the subset", e.function.span, hint)
     if name in ("reinit", "assert", "terminate"):
         raise Diagnostic("R004", f"{name} has no value", e.function.span, "it stands alone, ended by ';'")
-    known = [*scope.context.lowering.functions, *visible_classes(scope.context.library, scope.cls)]
-    hint = did_you_mean(e.function.names[-1], known, "declare it, or import its package")
+    hint = did_you_mean(e.function.names[-1], _functions_beside(e.function, scope), "declare it, or import its package")
     if scope.instance is not None and e.function.names[0] in scope.instance.elements:
         hint = f"{name} is a variable: index it as {name}[i], multiply as {name}*(...)"
     raise Diagnostic("R004", f"there is no function {name}", e.function.span, hint)
@@ -171,6 +171,17 @@ def _defaults_of(cls: ast.Class, e: ast.Call, holder: Component | None, scope: S
     for tree, around in constraints_of(cls):
         take(tree, Scope(scope.context, around, holder))
     return found
+
+
+def _functions_beside(ref: ast.Ref, scope: Scope) -> list[str]:
+    """Names that the last one of `ref` may mean where there is no such function: of the package before it, if any."""
+    library, before = scope.context.library, ref.names[:-1]
+    package = (
+        find_class(library, scope.cls, replace(ref, names=before, subscripts=ref.subscripts[:-1])) if before else None
+    )
+    if package is not None:
+        return [name for own in (package, *base_classes(library, package)) for name in library.members(own)]
+    return [*scope.context.lowering.functions, *visible_classes(library, scope.cls)]
 
 
 def _of_component(ref: ast.Ref, scope: Scope) -> tuple[ast.Class | None, Component | None]:
