@@ -208,7 +208,7 @@ def apply_subscripts(
     if index.op == "const" or (is_known(index, scope.context) and not scope.in_function):
         return apply_subscripts(_row(value, index, scope, ref, first), rest, scope, ref, later)
     if scope.in_function:
-        moved = at_index(value.row(0), index) if shape[0] else None
+        moved = at_index(value, index) if shape[0] else None
         if moved is not None:
             return apply_subscripts(moved, rest, scope, ref, later)
     return _choose([apply_subscripts(r, rest, scope, ref, later) for r in value.rows()], index, first, scope)
