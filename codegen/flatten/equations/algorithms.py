@@ -163,7 +163,7 @@ def assignment(item: ast.Assignment, scope: Scope) -> list[flat.Statement]:
         sides = [(lower(t, scope), v) for t, v in zip(item.target.items, values, strict=False) if t is not None]
     else:
         sides = [(lower(item.target, scope), lower(item.value, scope))]
-    result: list[flat.Statement] = []
+    found: dict[Expr | str, flat.Assign] = {}
     written: list[Expr | str] = []
     for target, value in sides:
         if shape_of(target) != shape_of(value):
@@ -171,10 +171,11 @@ def assignment(item: ast.Assignment, scope: Scope) -> list[flat.Statement]:
             raise Diagnostic("R042", f"the sides differ in size: {message}", item.span, "both need the same size")
         for t, v in pairs(target, value, item.span, scope):
             written.append(t)
-            for chosen, new in _chosen(t, v):
+            for chosen, new in _chosen(t, v, found):
                 check_target(chosen, item.span, scope)
                 check_types(chosen, v, item.span, scope)
-                result.append(flat.Assign(str(chosen.value), new, item.span))
+                found[chosen] = flat.Assign(str(chosen.value), new, item.span)
+    result = list(found.values())
     if len(result) > 1 and (len(written) > 1 or _chosen_by_itself(written[0])):
         result = _simultaneous(result, scope.context)
     return result
@@ -191,9 +192,15 @@ def _chosen_by_itself(target: Expr | str) -> bool:
     return not conditions.isdisjoint({*elements, target})
 
 
-def _chosen(target: Expr | str, value: Expr | str) -> list[tuple[Expr | str, Expr | str]]:
-    """An element by a subscript that varies is a choice among all of them: the one chosen is set, the others stay; a
-    subscript of none of them leaves no number."""
+def _chosen(
+    target: Expr | str, value: Expr | str, found: dict[Expr | str, flat.Assign]
+) -> list[tuple[Expr | str, Expr | str]]:
+    """An element by a subscript that varies is a choice among all of them: the one chosen is set, the others stay what
+    they are or, by the same assignment, are `found` to be; a subscript of none of them leaves no number."""
+
+    def stays(e: Expr) -> Expr:
+        return found[e].value if e in found else e
+
     if not isinstance(target, Expr) or target.op != "if" or not isinstance(value, Expr):
         return [(target, value)]
     elements: list[tuple[Expr, Expr]] = []
@@ -204,8 +211,8 @@ def _chosen(target: Expr | str, value: Expr | str) -> list[tuple[Expr | str, Exp
         none_before = ex.logical_and(none_before, ex.logical_not(condition))
     if target.op == "var":
         elements.append((target, none_before))
-        return [(element, ex.if_else(chosen, value, element)) for element, chosen in elements]
-    return [(e, ex.if_else(chosen, value, ex.if_else(none_before, target, e))) for e, chosen in elements]
+        return [(element, ex.if_else(chosen, value, stays(element))) for element, chosen in elements]
+    return [(e, ex.if_else(chosen, value, ex.if_else(none_before, target, stays(e)))) for e, chosen in elements]
 
 
 class Carried(dict[str, str]):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lacuna.codegen.flatten.names.values import Array, Record, Value, indices
+from lacuna.codegen.flatten.names.values import Array, Value, indices
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
 
@@ -19,18 +19,25 @@ def local_value(name: str, kind: str, shape: tuple[int, ...]) -> Value:
     return Array(shape, tuple(element(name, kind, tuple(map(ex.const, i))) for i in indices(shape)))
 
 
-def at_index(value: Value, index: Expr, inner: int = 0) -> Value | None:
-    """`value` (the first row of an array) with its row number replaced by a run-time `index`; None where it is no
-    array of element reads. `inner`: dimensions of what it is a part of, behind that of the rows."""
-    if isinstance(value, Record):
-        fields = {name: at_index(field, index, inner) for name, field in value.fields.items()}
-        return None if None in fields.values() else Record(value.name, fields, value.cls)
-    if isinstance(value, Array):
-        items = tuple(at_index(item, index, inner + len(value.shape)) for item in value.items)
-        return None if None in items else Array(value.shape, items)
-    if not isinstance(value, Expr) or value.op != "call" or value.value != "[]":
+def at_index(array: Array, index: Expr) -> Value | None:
+    """The row of an array of element reads whose number is known at run time; None where it is no such array, or not
+    the whole of one in its order."""
+    moved = _moved(array.row(0), index)
+    rows = (array.row(k) == _moved(array.row(0), ex.const(k + 1)) for k in range(array.shape[0]))
+    return moved if moved is not None and all(rows) else None
+
+
+def _moved(row: Value, index: Expr) -> Value | None:
+    """A row of element reads with another number."""
+    inner = len(row.shape) if isinstance(row, Array) else 0
+    items = row.items if isinstance(row, Array) else (row,)
+    if not all(isinstance(item, Expr) and item.op == "call" and item.value == "[]" for item in items):
         return None
-    position = len(value.args) - 1 - inner
-    if position < 1:  # the rows are records, each field of each a variable of its own
+    positions = [len(item.args) - 1 - inner for item in items]
+    if any(p < 1 for p in positions):  # the rows are records, each field of each a variable of its own
         return None
-    return ex.node("call", value.args[:position] + (index,) + value.args[position + 1 :], "[]", value.type)
+    reads = tuple(
+        ex.node("call", (*item.args[:p], index, *item.args[p + 1 :]), "[]", item.type)
+        for item, p in zip(items, positions, strict=True)
+    )
+    return Array(row.shape, reads) if isinstance(row, Array) else reads[0]

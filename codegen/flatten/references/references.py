@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 import math
+import re
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.instance import Absent, ArrayNode, Instance, Node
 from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.classes.types import resolve_type
 from lacuna.codegen.flatten.expressions.choices import chosen_value
-from lacuna.codegen.flatten.expressions.constants import is_known, known
+from lacuna.codegen.flatten.expressions.constants import is_known, known, variability
 from lacuna.codegen.flatten.expressions.elements import at_index
 from lacuna.codegen.flatten.expressions.enumerations import IndexType, enumeration_of, index_number
 from lacuna.codegen.flatten.expressions.lower import lower
@@ -29,6 +30,7 @@ from lacuna.codegen.flatten.names.values import (
 from lacuna.codegen.flatten.references.class_values import from_class
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, Expr
+from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.syntax import ast
 from lacuna.suggest import did_you_mean
 
@@ -162,7 +164,7 @@ def _walk_array(node: Node, ref: ast.Ref, at: int, scope: Scope) -> Value:
     plain = replace(ref, subscripts=inner)
     if isinstance(picked, Expr):
         return _numbered(node, picked, plain, at, scope)
-    values = [_walk(node.items[p.value - 1], plain, at, scope) for p in picked.items]
+    values = [_numbered(node, p, plain, at, scope) for p in picked.items]
     stacked = stack(values, ref.span)
     return Array(picked.shape + stacked.shape[1:], stacked.items)
 
@@ -198,20 +200,37 @@ def apply_subscripts(
         return value
     first, rest = subscripts[0], subscripts[1:]
     later = kinds[1:] if kinds is not None else None
+
+    def part(row: Value) -> Value:
+        return apply_subscripts(row, rest, scope, ref, later)
+
     if isinstance(first, ast.Colon):
-        return _stacked(value.rows(), value, lambda r: apply_subscripts(r, rest, scope, ref, later), ref)
+        return _stacked(value.rows(), value, part, ref)
     last = kinds[0][-1] if kinds and kinds[0] else ex.const(shape[0])
     index = _index(first, kinds, replace(scope, end=last), ref)
-    if isinstance(index, Array):
-        picked = [_row(value, i, scope, ref, first) for i in index.items]
-        return _stacked(picked, value, lambda r: apply_subscripts(r, rest, scope, ref, later), ref)
-    if index.op == "const" or (is_known(index, scope.context) and not scope.in_function):
-        return apply_subscripts(_row(value, index, scope, ref, first), rest, scope, ref, later)
-    if scope.in_function:
-        moved = at_index(value.row(0), index) if shape[0] else None
-        if moved is not None:
-            return apply_subscripts(moved, rest, scope, ref, later)
-    return _choose([apply_subscripts(r, rest, scope, ref, later) for r in value.rows()], index, first, scope)
+    if not isinstance(index, Array):
+        return _picked(value, index, part, scope, ref, first)
+    picked = [_picked(value, i, part, scope, ref, first) for i in index.items]
+    return stack(picked, ref.span) if picked else _stacked([], value, part, ref)
+
+
+def _picked(
+    value: Array, index: Expr, part: Callable[[Value], Value], scope: Scope, ref: ast.Ref, written: ast.Expression
+) -> Value:
+    """A part of the row of that number, which may be known only at run time."""
+    if index.op == "const" or _is_known_here(index, scope):
+        return part(_row(value, index, scope, ref, written))
+    moved = at_index(value, index) if scope.in_function and value.shape[0] else None
+    return part(moved) if moved is not None else _choose([part(r) for r in value.rows()], index, written, scope)
+
+
+def _is_known_here(index: Expr, scope: Scope) -> bool:
+    """Is a subscript known at translation; in a function, where its variables are no parameters of the model: is it a
+    constant?"""
+    if not scope.in_function:
+        return is_known(index, scope.context)
+    own = any(re.split(r"[.\[]", str(n.value))[0] in scope.locals for n in leaves(index))
+    return not own and variability(index, scope.context) == "constant"
 
 
 def _index(written: ast.Expression, kinds: tuple[IndexType, ...] | None, scope: Scope, ref: ast.Ref) -> Value:
