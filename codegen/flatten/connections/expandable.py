@@ -162,8 +162,7 @@ def _share(giver: Instance, taker: Instance) -> bool:
         changed = changed or (have is not None and not was_present)  # declared there, and used from now on
         if have is None and taker.cls.expandable and not isinstance(node, Absent):
             taken = _like(node, name, taker)
-            for leaf in _leaves(taken):
-                leaf.relayed.update(leaf.names)
+            _relay(taken)
             _adopt(taker, name, taken)
             changed = True
         elif _grown(node, have, taker, name):
@@ -187,8 +186,8 @@ def _grown(node: Node, have: Node | None, taker: Instance, name: str) -> bool:
         _adopt(taker, name, larger)
     elif isinstance(node, ArrayNode) and isinstance(have, ArrayNode) and len(shape) == 1:
         more = [_like(n, f"{name}[{k + 1}]", taker) for k, n in enumerate(node.items) if k >= own[0]]
-        for leaf in (leaf for item in more for leaf in _leaves(item)):
-            leaf.relayed.update(leaf.names)
+        for item in more:
+            _relay(item)
         _adopt(taker, name, ArrayNode(have.name, shape, [*have.items, *more], have.index_types))
     else:
         return False
@@ -231,8 +230,13 @@ def _add(owner: Instance, ref: ast.Ref, found: list[Connector], scope: Scope, co
         and not node.declaration.protected
         and (node.instance is scope.instance and owner.parent is scope.instance)
     ):  # what its own input brings goes out by its own bus
-        for leaf in _leaves(owner.child(name)):
-            leaf.relayed.update(leaf.names)
+        _relay(owner.child(name))
+
+
+def _relay(node: Node) -> None:
+    """Say of what is inside that a connected connector brought it."""
+    for leaf in _leaves(node):
+        leaf.relayed.update(leaf.names)
 
 
 def _relay_others(node: Node, elements: set[tuple[int, ...]]) -> None:
@@ -241,8 +245,7 @@ def _relay_others(node: Node, elements: set[tuple[int, ...]]) -> None:
         node.relayed |= {n for n, at in zip(node.names, indices(node.shape), strict=True) if at not in elements}
     elif isinstance(node, ArrayNode):
         for item in (item for k, item in enumerate(node.items) if (k + 1,) not in elements):
-            for leaf in _leaves(item):
-                leaf.relayed.update(leaf.names)
+            _relay(item)
 
 
 def _elements(owner: Instance, name: str, connections: Connections) -> set[tuple[int, ...]]:
