@@ -71,28 +71,32 @@ def equate(left: Value, right: Value, span: Span, scope: Scope, text: str) -> li
 
 
 def pairs(left: Value, right: Value, span: Span, scope: Scope) -> Iterator[tuple[Expr | str, Expr | str]]:
-    """Corresponding scalars; the fields of records by their names, but for constants: no constructor takes them, and
-    nothing sets them (12.6)."""
-
-    def fields(record: Value) -> dict[str, Value]:
-        found = record.fields if isinstance(record, Record) else {}
-        return {n: v for n, v in found.items() if not all(_is_constant(s, scope) for s in scalars(v))}
-
+    """Corresponding scalars; the fields of records by their names, but for constants of their own: no constructor takes
+    them, and nothing sets them (12.6)."""
     for a, b in zip(items_of(left), items_of(right), strict=True):
         if not isinstance(a, Record) and not isinstance(b, Record):
             yield a, b
             continue
-        both, own = isinstance(a, Record) and isinstance(b, Record), fields(a)
-        if not both or own.keys() != fields(b).keys() - (a.fields.keys() - own.keys()):
+        records = isinstance(a, Record) and isinstance(b, Record)
+        if not records or any(not _is_constant(r.fields[n], scope) for r, n in _of_one_side(a, b)):
             raise Diagnostic("R042", "records of different kind", span, "both sides need the same fields")
-        for name, part in own.items():
+        for name, part in ((n, v) for n, v in a.fields.items() if n in b.fields):
             if shape_of(part) != shape_of(b.fields[name]):
                 raise Diagnostic("R042", f"the sides differ in size: {name}", span, "both sides need the same size")
-            yield from pairs(part, b.fields[name], span, scope)
+            if not (_is_constant(part, scope) and _is_constant(b.fields[name], scope)):
+                yield from pairs(part, b.fields[name], span, scope)
 
 
-def _is_constant(s: Expr | str | ChosenText, scope: Scope) -> bool:
-    return isinstance(s, Expr) and s.op == "var" and variability(s, scope.context) == "constant"
+def _of_one_side(a: Record, b: Record) -> Iterator[tuple[Record, str]]:
+    """Fields that only one of two records has."""
+    return ((r, n) for r, other in ((a, b), (b, a)) for n in r.fields if n not in other.fields)
+
+
+def _is_constant(value: Value, scope: Scope) -> bool:
+    """Whether all of a field is constants; a literal may be given to a variable."""
+    return all(
+        isinstance(s, Expr) and s.op == "var" and variability(s, scope.context) == "constant" for s in scalars(value)
+    )
 
 
 def check_types(a: Expr | str, b: Expr | str, span: Span, scope: Scope) -> None:

@@ -13,7 +13,7 @@ from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
 from lacuna.codegen.flatten.expressions.transport import OPERATOR, spatial_distribution
 from lacuna.codegen.flatten.functions.declared import bind_arguments, call_function, written_arguments
 from lacuna.codegen.flatten.functions.kept.code import is_done
-from lacuna.codegen.flatten.functions.locals import signature_of
+from lacuna.codegen.flatten.functions.locals import differentiated, signature_of
 from lacuna.codegen.flatten.names.component import Component
 from lacuna.codegen.flatten.names.index_types import plain_type
 from lacuna.codegen.flatten.names.scope import (
@@ -88,14 +88,15 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
     if name == OPERATOR and local is None and not _is_hidden(e.function, scope):
         return spatial_distribution(e, scope)
     if isinstance(local, FunctionValue):
-        return call_function(local.cls, e, scope, local.bound)
+        called = _partial_derivative if local.cls.derivative_of else call_function
+        return called(local.cls, e, scope, local.bound)
     if name == "pure":
         return _taken_as_pure(e, scope)
     cls, holder = find_class(scope.context.library, scope.cls, e.function), scope.instance
     if cls is None:
         cls, holder = _of_component(e.function, scope)
     if cls is not None and cls.derivative_of is not None:
-        return [_partial_derivative(cls, e, scope)]
+        return _partial_derivative(cls, e, scope, {})
     if cls is not None and cls.kind == "function":
         if cls.impure and scope.pure and not (scope.in_function and scope.context.library.foreign_package(e.span.file)):
             hint = f"call it when something happens (when ... then), or initially; or write pure({name}(...))"
@@ -207,14 +208,11 @@ def _public_class(cls: ast.Class, name: str, ref: ast.Ref, scope: Scope) -> ast.
     return found
 
 
-def _partial_derivative(cls: ast.Class, e: ast.Call, scope: Scope) -> Value:
+def _partial_derivative(cls: ast.Class, e: ast.Call, scope: Scope, given: dict[str, Value]) -> list[Value]:
     """A call of `function f = der(g, x, ...)` (12.7.2): g of variables in place of the arguments, differentiated."""
-    reference, inputs = cls.derivative_of
-    function = find_class(scope.context.library, cls.parent or scope.context.library.root, reference)
-    if function is None or function.kind != "function":
-        raise Diagnostic("R004", f"there is no function {reference}", reference.span, "name a function")
+    function, (_, inputs) = differentiated(cls, scope.context), cls.derivative_of
     signature = signature_of(function, scope.context)
-    written = written_arguments(function, signature.inputs, e, scope, {})
+    written = written_arguments(function, signature.inputs, e, scope, given)
     arguments = bind_arguments(function, signature.inputs, written, e, scope)
     unknown = [n for n in inputs if not isinstance(arguments.get(n), Expr) or arguments[n].type == BOOLEAN]
     if unknown or len(signature.outputs) != 1:
@@ -225,4 +223,5 @@ def _partial_derivative(cls: ast.Class, e: ast.Call, scope: Scope) -> Value:
     for name in inputs:
         rule = Differentiator(lambda n, x=by[name]: ex.ONE if n is x else ex.ZERO)
         value = elementwise(rule, [value], e.span, "a derivative")
-    return elementwise(lambda x: ex.substitute(x, {by[n]: arguments[n] for n in inputs}), [value], e.span, "arguments")
+    put = {by[n]: arguments[n] for n in inputs}
+    return [elementwise(lambda x: ex.substitute(x, put), [value], e.span, "arguments")]

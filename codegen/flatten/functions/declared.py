@@ -26,7 +26,7 @@ from lacuna.codegen.flatten.functions.interpret import interpret
 from lacuna.codegen.flatten.functions.kept.code import emitted_call
 from lacuna.codegen.flatten.functions.library.external import call_external
 from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
-from lacuna.codegen.flatten.functions.locals import Local, Signature, signature_of
+from lacuna.codegen.flatten.functions.locals import Local, Signature, inputs_of, signature_of
 from lacuna.codegen.flatten.names.scope import Scope, find_class
 from lacuna.codegen.flatten.names.values import (
     Array,
@@ -261,7 +261,7 @@ def function_value(e: ast.Expression, scope: Scope) -> FunctionValue:
     cls = local.cls if isinstance(local, FunctionValue) else find_class(scope.context.library, scope.cls, ref)
     if cls is None or cls.kind != "function":
         raise Diagnostic("R062", f"{ref} is no function", e.span, "give the name of a function")
-    inputs = {i.name: i for i in signature_of(cls, scope.context).inputs}
+    inputs = {i.name: i for i in inputs_of(cls, scope.context)}
     for name, value in (e.named if isinstance(e, ast.PartialFunction) else {}).items():
         if name not in inputs or name in bound:
             hint = did_you_mean(name, list(inputs), f"{cls.name}({', '.join(inputs)})")

@@ -12,7 +12,7 @@ from lacuna.codegen.flatten.classes.instance import Instance
 from lacuna.codegen.flatten.classes.types import Type, causality_of, resolve_type
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import from_tree, merge
-from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.names.scope import Scope, find_class
 from lacuna.codegen.flatten.names.values import (
     Array,
     Value,
@@ -186,6 +186,20 @@ def signature_of(cls: ast.Class, context: Context) -> Signature:
         written_in = next((c for section, c in instance.sections if section.items), cls)
         found = signatures[id(cls)] = Signature(cls, tuple(declared), body, written_in, external)
     return found
+
+
+def differentiated(cls: ast.Class, context: Context) -> ast.Class:
+    """The function that `function f = der(g, x, ...)` is a partial derivative of (12.7.2). Raises R004."""
+    reference, _ = cls.derivative_of
+    found = find_class(context.library, cls.parent or context.library.root, reference)
+    if found is None or found.kind != "function":
+        raise Diagnostic("R004", f"there is no function {reference}", reference.span, "name a function")
+    return found
+
+
+def inputs_of(cls: ast.Class, context: Context) -> list[Local]:
+    """The inputs of a function; a partial derivative has those of what it is one of (12.7.2)."""
+    return signature_of(differentiated(cls, context) if cls.derivative_of else cls, context).inputs
 
 
 def _check_function(cls: ast.Class, instance: Instance, declared: list[Local]) -> None:

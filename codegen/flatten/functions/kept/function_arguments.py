@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from lacuna.codegen.flatten.classes.types import Type
-from lacuna.codegen.flatten.functions.locals import Signature, signature_of
+from lacuna.codegen.flatten.functions.locals import Signature, inputs_of
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.values import FunctionValue, Value, scalars
 from lacuna.codegen.symbolic.expr import REAL, Expr
@@ -45,7 +45,7 @@ def split(signature: Signature, arguments: dict[str, Value], context: Context) -
     result = FunctionArguments({n: v for n, v in arguments.items() if isinstance(v, FunctionValue)})
 
     def note(name: str, function: FunctionValue) -> None:
-        kinds = {i.name: i.type for i in signature_of(function.cls, context).inputs}
+        kinds = {i.name: i.type for i in inputs_of(function.cls, context)}
         for n, value in function.bound.items():
             if isinstance(value, FunctionValue):
                 note(f"{name}.{n}", value)
