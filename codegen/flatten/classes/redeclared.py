@@ -71,8 +71,8 @@ def check_redeclared(cls: ast.Class, context: Context, elements: ElementsOf) -> 
     for reference, tree in base_clauses(origin):
         for argument in tree.arguments:
             if isinstance(argument.redeclare, ast.Class):
-                base = base_class(context.library, origin, reference, tree)
-                new = view(context.library, argument.redeclare, origin, written=origin.written)
+                base = base_class(context.library, cls, reference, tree)
+                new = view(context.library, argument.redeclare, cls, written=cls.written)
                 _in_place(new, own_or_inherited(context.library, base.origin or base, argument.name), context, elements)
 
 
