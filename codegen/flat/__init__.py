@@ -28,6 +28,7 @@ class Variable:
     causality: str = "local"  # local | input | output  (inputs of the top-level model only)
     binding: Expr | None = None  # of a constant or a parameter
     start: Expr | None = None
+    start_at: Span | None = None  # where the start value is written, if not at the declaration
     fixed: Expr | None = None  # Boolean; None where not given
     min: Expr | None = None
     max: Expr | None = None
@@ -41,7 +42,13 @@ class Variable:
     final: bool = False
     free: bool = False  # a parameter that the initial system is to find: it stands still after the start
     evaluated: bool = False  # a structural parameter: its value is part of the structure, not changeable
+    awaited: bool = False  # an input of a component without a value of its own: something outside of it has to give one
     hidden: bool = False  # protected in a component: the model does not see it, nor does one that extends that
+
+    @property
+    def start_span(self) -> Span:
+        """Where the start value is written."""
+        return self.start_at or self.span
 
 
 @dataclass

@@ -216,9 +216,9 @@ def _merge_attributes(model: flat.FlatModel, pairs: dict[str, tuple[str, int]]) 
         changed: dict[str, object] = {}
         if _is_fixed(a) and _is_fixed(b) and _start(a, sign) is not _start(b, 1):
             raise Diagnostic(
-                "S002", f"{name} and {target} are equal but have different fixed start values", b.span,
+                "S002", f"{name} and {target} are equal but have different fixed start values", b.start_span,
                 f"give one fixed=false, or both the same start: {b.start} against {'-' if sign < 0 else ''}{a.start}",
-                [(a.span, f"{name} is {'-' if sign < 0 else ''}{target}")],
+                [(a.start_span, f"{name} is {'-' if sign < 0 else ''}{target}")],
             )  # fmt: skip
         if a.start is not None and (b.start is None or (_is_fixed(a) and not _is_fixed(b))):
             changed |= {"start": _start(a, sign), "fixed": a.fixed}

@@ -26,16 +26,18 @@ ROUNDINGS = 32  # places of the levels, over which rounding is averaged
 def standard_errors(fit: Fit, lead: Lead | None = None) -> dict[str, float]:
     """1-sigma of each free parameter in its unit, to the inside at a bound; `lead` is how the fit was led.
 
-    Infinite where neither data nor belief tells a direction that the parameter is part of.
+    Infinite where neither data nor belief tells a direction that the parameter is part of, or no more than that it is
+    within its bounds.
     """
     held = with_secants(lead.hold_fast(fit) if lead else fit)
     moved = held.estimate.values - fit.estimate.values
     variance = np.diag(covariance(held)) + moved**2 + solver_shift(held) ** 2 + input_shift(held) ** 2
     free = undetermined(held.estimate.normal)
-    return {
-        f.name: float("inf") if open_ else from_bound(held, k) if fit.estimate.at_bound(f.name) else float(np.sqrt(v))
-        for k, (f, v, open_) in enumerate(zip(fit.estimate.free, variance, free, strict=True))
-    }
+    found = {}
+    for k, (f, v, open_) in enumerate(zip(fit.estimate.free, variance, free, strict=True)):
+        error = from_bound(held, k) if fit.estimate.at_bound(f.name) else float(np.sqrt(v))
+        found[f.name] = float("inf") if open_ or error >= f.upper - f.lower else error
+    return found
 
 
 def from_bound(fit: Fit, k: int) -> float:
@@ -70,7 +72,10 @@ def covariance(fit: Fit) -> np.ndarray:
     scales = np.array([0.0 if estimate.at_bound(f.name) else f.scale for f in estimate.free])
     inside = scales > 0
     inverse = np.zeros_like(estimate.normal)
-    inverse[np.ix_(inside, inside)] = np.linalg.pinv(estimate.normal[np.ix_(inside, inside)], hermitian=True)
+    normal = estimate.normal[np.ix_(inside, inside)]
+    size = np.sqrt(np.diag(normal))
+    size = np.outer(np.where(size > 0, size, 1.0), np.where(size > 0, size, 1.0))
+    inverse[np.ix_(inside, inside)] = np.linalg.pinv(normal / size, hermitian=True) / size
 
     def sandwich(score: np.ndarray) -> np.ndarray:
         return inverse @ score @ inverse * np.outer(scales, scales)

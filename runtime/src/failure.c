@@ -189,6 +189,7 @@ static const mdl_equation *derivative_of(const rt_session *s, int state) {
 /* The solver asks for steps of h seconds, too small to get anywhere: the fault is in the state with the largest error
  * of the last step that was tried, or, where that tells nothing, in the one that changes fastest. */
 rt_status rt_fail_collapse(rt_session *s, double h, const char *why) {
+  if (s->method->blame) s->method->blame(s, s->memory);
   if (s->data.failure.kind != MDL_FAILURE_NONE) return rt_fail_model(s, s->t, "integrating");
   const char *reason = "has the largest error: does its derivative jump without an event, or grow without bound?";
   double *error = s->x_trial, largest = 0;

@@ -28,7 +28,7 @@ static void destroy(void *p) {
   if (m->newton) SUNNonlinSolFree(m->newton);
   if (m->solver) SUNLinSolFree(m->solver);
   if (m->matrix) SUNMatDestroy(m->matrix);
-  N_Vector vectors[] = {m->y, m->yp, m->work, m->filtered};
+  N_Vector vectors[] = {m->y, m->yp, m->work, m->filtered, m->broken};
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
     if (vectors[i]) N_VDestroy(vectors[i]);
   if (m->context) SUNContext_Free(&m->context);
@@ -42,7 +42,7 @@ static void destroy(void *p) {
 
 static bool create_vectors(rt_session *s, rt_ida *m) {
   sunindextype n = s->d->n_x + s->d->n_z;
-  N_Vector *vectors[] = {&m->y, &m->yp, &m->work, &m->filtered};
+  N_Vector *vectors[] = {&m->y, &m->yp, &m->work, &m->filtered, &m->broken};
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
     if (!(*vectors[i] = rt_vector_new(n, m->context))) return false;
   return true;
@@ -142,6 +142,17 @@ static void errors(rt_session *s, void *p, double *error) {
     memcpy(error, N_VGetArrayPointer(m->work), (size_t)s->d->n_x * sizeof *error);
 }
 
+/* The residual that is no finite number may be that of another equation, which is in it: the explicit form says which.
+ */
+static void blame(rt_session *s, void *p) {
+  rt_ida *m = p;
+  mdl_failure told = s->data.failure;
+  if (told.kind != MDL_FAILURE_NONFINITE || !s->d->rhs) return;
+  memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
+  rt_rhs(s, m->t_broken, N_VGetArrayPointer(m->broken), s->xdot_trial, s->v_trial);
+  if (!rt_blame(s, MDL_DERIVATIVE, s->xdot_trial, s->v_trial)) s->data.failure = told;
+}
+
 static rt_status fail(rt_session *s, rt_ida *m, int flag) {
   sunrealtype h = 0;
   IDAGetCurrentStep(m->ida, &h);
@@ -236,6 +247,7 @@ const rt_method rt_method_ida = {
     .dense = rt_ida_dense,
     .count = count,
     .errors = errors,
+    .blame = blame,
     .filter = rt_ida_filter,
     .sensitivities = rt_ida_sensitivities,
     .dense_tangent = rt_ida_dense_tangent,

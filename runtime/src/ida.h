@@ -11,6 +11,8 @@ typedef struct {
   SUNContext context;
   void *ida;
   N_Vector y, yp, work, filtered;
+  N_Vector broken; /* where the residual was last no finite number, */
+  double t_broken; /* and when (s) */
   SUNMatrix matrix;
   SUNLinearSolver solver;
   SUNNonlinearSolver newton;

@@ -54,6 +54,9 @@ int rt_ida_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *us
   int row = 0;
   while (row < n - 1 && isfinite(values[row]))
     row++;
+  rt_ida *m = s->memory;
+  m->t_broken = t;
+  N_VScale(1, y, m->broken);
   return rt_ida_not_finite(s, row, values[row]);
 }
 

@@ -67,6 +67,7 @@ typedef struct {
   void (*dense)(struct rt_session *, void *memory, rt_dense *dense);
   void (*count)(struct rt_session *, void *memory);            /* add the method's own counters to the result */
   void (*errors)(struct rt_session *, void *memory, double *); /* [n_x] of the last step tried; NULL: not known */
+  void (*blame)(struct rt_session *, void *memory);            /* name what failed more closely; NULL: it is named */
   bool (*sensitivities)(struct rt_session *, void *memory);    /* get ready for those of the session, or for none */
   void (*filter)(struct rt_session *, void *memory, double t, double *defect); /* [n_x] of x_trial, defect.c */
   void (*dense_tangent)(struct rt_session *, void *memory, rt_dense *dense);   /* as dense, of the states' tangents */

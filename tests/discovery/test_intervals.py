@@ -99,3 +99,17 @@ def test_rounding_that_repeats_widens_an_interval(shape: np.ndarray, repeats: bo
     assert 0.8 < np.median(said) / scatter < 1.5  # the larger of what rounding gives and of what white noise would
     assert np.all(errors[:, 1] == 0.0)  # unseen
     assert bool(np.median(as_noise) < 0.5 * scatter) is repeats
+
+
+def test_what_the_data_hardly_tells_has_a_wide_interval() -> None:
+    """A stop beyond the motion moves the outputs by rounding: a pseudo-inverse in the parameters' own scales left it
+    without any error."""
+    noise = Noise(1.0, 0.1, False)
+    found = fitted(UNSTEADY + np.random.default_rng(0).normal(0.0, 1.0, 600), UNSTEADY, noise)
+    tiny = 1e-13 * np.random.default_rng(1).normal(0.0, 1.0, 600)
+    estimate = found.estimate
+    block = np.column_stack([estimate.jacobian[0][:, 0], tiny])
+    found.estimate = replace(estimate, jacobian=[block], normal=block.T @ block)
+    errors = np.sqrt(np.diag(covariance(found)))
+    assert errors[0] == pytest.approx(0.1 * np.linalg.norm(block[:, 0]) ** -1, rel=0.2)
+    assert errors[1] == pytest.approx(np.linalg.norm(tiny) ** -1, rel=0.2)

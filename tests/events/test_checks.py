@@ -47,6 +47,16 @@ def test_the_root_of_a_negative_number_is_told_with_its_values(tmp_path: Path, s
     assert "variable y (value nan); in: y = sqrt(x) (x = -0.0" in str(failure)
 
 
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_what_a_derivative_takes_its_value_from_is_told_where_that_is_none(tmp_path: Path, solver: str) -> None:
+    """The residual form has sqrt(x) in the balance of x: IDA told that line, with an x that was right."""
+    text = ROOT.replace("sqrt(x)", "sqrt(x) + 0.1").replace("= -2", "= -y")
+    failure = simulated(tmp_path, text, solver=solver, stop=3.0).failure
+    assert failure.status == "non_finite"
+    assert failure.line == 4
+    assert "variable y (value nan); in: y = sqrt(x) + 0.1" in str(failure)
+
+
 def test_between_two_steps_a_recorded_value_is_looked_at_too(tmp_path: Path) -> None:
     """x = 1 - 4 (1 - t) t touches -1e-2 between steps that end on positive values."""
     text = ROOT.replace("sqrt(x)", "sqrt((time - 0.5)^2 - 1e-4)")

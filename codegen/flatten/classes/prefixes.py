@@ -112,7 +112,9 @@ def check_component(holder: ast.Class, declaration: ast.Component, found: Type, 
     if is_partial(cls, context):
         hint = "use a class that extends it"
         if declaration.replaceable:
-            hint = f"redeclare it: {declaration.name}(redeclare CLASS {declaration.name})"
+            hint = (
+                f"redeclare it where a {holder.name} is declared: {holder.name} x(redeclare CLASS {declaration.name})"
+            )
         raise Diagnostic("R015", f"{cls.name} is partial and cannot be a component", declaration.span, hint)
 
 

@@ -100,6 +100,7 @@ def _variable(leaf: Leaf, position: int, attributes: dict[str, Expr | str]) -> f
         fixed=leaf.fixed[position],
         final=leaf.modifier.final,
         evaluated=leaf.is_structural and not leaf.is_free and _is_evaluated(leaf.declaration.annotation),
+        awaited=bool(leaf.instance.name) and leaf.causality == "input" and leaf.modifier.value is None,
         hidden=_is_hidden(leaf),
     )
     for key in _NUMERIC:
@@ -109,6 +110,8 @@ def _variable(leaf: Leaf, position: int, attributes: dict[str, Expr | str]) -> f
                 hint = "use parameters and constants"
                 raise Diagnostic("R055", f"{key} of {name} varies in time", leaf.modifier.children[key].span, hint)
             setattr(result, key, value)
+    if "start" in attributes:
+        result.start_at = leaf.modifier.children["start"].span
     for key in ("unit", "quantity", "displayUnit"):
         if key in attributes:
             text = _text(attributes[key], key, leaf)

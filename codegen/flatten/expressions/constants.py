@@ -80,8 +80,9 @@ def _value_of(name: str, context: Context, span: Span, what: str) -> Expr:
         result = evaluate(value, context, leaf.span, name) if isinstance(value, Expr) else None
         kind = "String" if result is None else result.type
         if result is None or kind != leaf.primitive != ex.REAL:
-            raise Diagnostic("R024", f"{name} is {leaf.primitive}, its value {kind}", leaf.span,
-                             f"give it a value of type {leaf.primitive}")  # fmt: skip
+            place = leaf.modifier.span if leaf.modifier.value is not None else leaf.span
+            hint = f"give it a value of type {leaf.primitive}"
+            raise Diagnostic("R024", f"{name} is {leaf.primitive}, its value {kind}", place, hint)
     finally:
         context.evaluating.pop()
     context.constants[name] = result

@@ -29,7 +29,7 @@ def require_regular(rows: list[Row], names: Sequence[str], model: flat.FlatModel
     if not unmatched_rows and not unmatched_columns:
         return
     notes, counts = [], f"{len(rows)} equations for {len(names)} unknowns"
-    first = None
+    first, open_ = None, []
     if unmatched_rows:
         over_rows, over_columns = matching.overdetermined(unmatched_rows)
         notes += _notes(rows, names, model, over_rows, over_columns)
@@ -38,9 +38,15 @@ def require_regular(rows: list[Row], names: Sequence[str], model: flat.FlatModel
         under_rows, under_columns = matching.underdetermined(unmatched_columns)
         notes += _notes(rows, names, model, under_rows, under_columns)
         lacking = f"too few equations: {len(under_rows)} for {_list(names, under_columns)}"
+        open_ = _ungiven(rows, names, model, under_columns)
+        if open_:
+            lacking = f"nothing gives a value to {'the input' if len(open_) == 1 else 'inputs'} {_list(names, open_)}"
+            unmatched_columns = open_
         first = f"{first}; {lacking}" if first else lacking
     span = rows[unmatched_rows[0]].source.span if unmatched_rows else model.variables[names[unmatched_columns[0]]].span
-    hint = _hint(rows, column.keys(), unmatched_rows, unmatched_columns)
+    hint = "connect it, or write an equation for it"
+    if not open_:
+        hint = _hint(rows, column.keys(), unmatched_rows, unmatched_columns)
     raise Diagnostic("S003", f"the model is structurally singular ({counts}): {first}", span, hint, notes)
 
 
@@ -52,6 +58,16 @@ def _hint(rows: list[Row], unknown: Set[str], unmatched_rows: Sequence[int], unm
     if unmatched_rows:
         return "remove one of the equations listed"
     return "add an equation or a connection for one of them"
+
+
+def _ungiven(rows: list[Row], names: Sequence[str], model: flat.FlatModel, columns: Sequence[int]) -> list[int]:
+    """Inputs of components that no connection and no equation outside of these gives a value to."""
+
+    def outside(name: str, row: Row) -> bool:
+        return not name.startswith(f"{row.source.origin}.") if row.source.origin else True
+
+    awaited = [c for c in columns if model.variables[names[c]].awaited]
+    return [c for c in awaited if not any(outside(names[c], r) for r in rows if names[c] in _occurring(r))]
 
 
 def _component(row: Row) -> str:

@@ -32,6 +32,11 @@ CASES = {
         "S003", 2, "too few equations: 1 for y, z",
         "model Under\n  Real y; Real z; Real x(start=0);\nequation\n  y + z = 1;\n  der(x) = -x;\nend Under;",
     ),
+    "input of a component that nothing drives": (
+        "S003", 3, "nothing gives a value to the input a.u2",
+        "model Open\n  block Add\n    input Real u1; input Real u2; output Real y;\n  equation\n    y = u1 + u2;\n"
+        "  end Add;\n  Add a(u1=time); Real x(start=0);\nequation\n  der(x) = a.y;\nend Open;",
+    ),
     "differentiated input": (
         "S004", 4, "the input u would have to be differentiated",
         "model Driven\n  input Real u; Real x; Real w;\nequation\n  x = u;\n  w = der(x);\nend Driven;",
