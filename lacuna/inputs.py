@@ -15,6 +15,8 @@ from lacuna.recorded_units import UnitError, factor_into, to_si
 from lacuna.runtime import RecordedInput
 from lacuna.runtime.model import Variable
 
+ROUNDING = 1e-12  # of times that were written with all their digits
+
 
 @dataclass(frozen=True, eq=False)
 class Measured(RecordedInput):
@@ -83,14 +85,15 @@ def _number(name: str, value: Any) -> float:
 
 
 def uncovered(given: Mapping[str, Input], start: float, stop: float) -> list[str]:
-    """A warning for each input whose samples end more than one sample's spacing before the run from `start` to `stop`
-    (s) does, or begin later than it: there a sample is held."""
+    """A warning for each input whose samples begin later than the run from `start` to `stop` (s) does, rounding aside,
+    or end earlier by more than their spacing: there a sample is held."""
     said = []
     for name, value in given.items():
         if not isinstance(value, RecordedInput):
             continue
         first, last, spacing = float(value.time[0]), float(value.time[-1]), np.diff(value.time)
-        if first - start > spacing[:1].sum() or stop - last > spacing[-1:].sum():
+        late = first - start > ROUNDING * max(abs(first), abs(start), stop - start)
+        if late or stop - last > spacing[-1:].sum():
             span = f"samples from {first:g} to {last:g} s, a run from {start:g} to {stop:g} s"
             said.append(f"warning: input {name}: {span}; outside of them the first or last value is held")
     return said

@@ -222,10 +222,10 @@ class Model:
 
         Raises UserError or SimulationError for what cannot be used, IncompleteRun (with its rows) where it ends early.
         """
+        _refuse_settings(solver, start=start, stop=stop, rtol=rtol, atol=atol, step=step, interval=interval)
         model, outputs = self.with_parameters(parameters or {}), outputs and list(dict.fromkeys(outputs))
         begin, end = model._span(start, stop)
         model._refuse_parameters(inputs or {})
-        _refuse_step(step, solver)
         clock, starts = time.perf_counter(), as_numbers(initial or {}, model.variables)
         run = runtime.simulate(
             model.differentiated if sensitivities else model._model, parameters=model._values,
@@ -271,6 +271,8 @@ def _loaded(source: Source, fixed: Mapping[str, float], values: Mapping[str, flo
     return Model(source, source.compiled(fixed), fixed, values)
 
 
-def _refuse_step(step: float | None, solver: str) -> None:
-    if step is not None and solver in runtime.ADAPTIVE:
+def _refuse_settings(solver: str, **given: float | None) -> None:
+    """Raises UserError for what is no number, such as "2", and for a step that the solver does not take."""
+    as_numbers({name: value for name, value in given.items() if value is not None}, {})
+    if given["step"] is not None and solver in runtime.ADAPTIVE:
         raise UserError(f"{solver} chooses its steps itself: a step is for {' and '.join(runtime.FIXED_STEP)}")

@@ -29,6 +29,9 @@ class Source:
         cls, model: str | Path, class_name: str, libraries: Iterable[str | Path], units: Units = "error",
         data: Iterable[str | Path] = (), allow_external: bool = False,
     ) -> Source:  # fmt: skip
+        if not isinstance(model, str | Path):
+            name = f"; write {model.name!r}" if isinstance(getattr(model, "name", None), str) else ""
+            raise UserError(f"a model is given here by its name or file, not as {type(model).__name__}{name}")
         if units not in get_args(Units):
             raise UserError(f"units may be {' or '.join(get_args(Units))}, not {units!r}")
         name = f"{model}:{class_name}" if class_name else str(model)

@@ -23,10 +23,13 @@ class RecordingError(AnalysisError):
 EXACT = 2**53  # whole numbers up to which a Real holds every one
 
 
-def not_rising(time: np.ndarray) -> str:
-    """Where times [n] do not increase from one sample to the next, as a sentence; "" where they all do."""
+def not_rising(time: np.ndarray) -> tuple[int, str] | None:
+    """The first of times [n] that is no later than the one before, its place and a sentence; None: there is none."""
     stays = np.flatnonzero(np.diff(time) <= 0)
-    return f"time does not increase after sample {stays[0] + 1} ({time[stays[0]]:.6g} s)" if len(stays) else ""
+    if not len(stays):
+        return None
+    k = int(stays[0])
+    return k + 1, f"time does not increase after sample {k + 1} ({time[k]:.6g} s)"
 
 
 @dataclass(frozen=True)

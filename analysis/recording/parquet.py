@@ -40,6 +40,8 @@ def read(path: Path) -> Recorded:
             values, said = from_clock(column.cast(pyarrow.timestamp("ns")).to_numpy())
             notes, units[k] = [*notes, *said], "s"
             names[k] = clock_name(names[k], names)
+        elif pyarrow.types.is_duration(field.type):
+            values, units[k] = column.cast(pyarrow.duration("ns")).to_numpy() / np.timedelta64(1, "s"), "s"
         else:
             numbers = column.cast("uint8") if pyarrow.types.is_boolean(field.type) else column
             try:
@@ -51,8 +53,8 @@ def read(path: Path) -> Recorded:
 
 
 def _kinds(types: Any) -> tuple[Callable[[Any], bool], ...]:
-    """Of numbers, of truth values (0 and 1), and of instants."""
-    return types.is_floating, types.is_integer, types.is_boolean, types.is_timestamp
+    """Of numbers, of truth values (0 and 1), of instants, and of durations."""
+    return types.is_floating, types.is_integer, types.is_boolean, types.is_timestamp, types.is_duration
 
 
 def write(recorded: Recorded, path: Path) -> None:

@@ -11,6 +11,7 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
+from lacuna.analysis.recording.channel import not_rising
 from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.case.gaps import GAP, MIN_SAMPLES, gaps
 from lacuna.discovery.case.noise import level, quantum
@@ -78,10 +79,9 @@ def _check_time(recording: Recording) -> list[Problem]:
         return fatal(
             "time_missing", float(time[k - 1]) if k else None, f"the time of sample {k + 1} is missing or not a number"
         )
-    steps = np.diff(time)
-    if np.any(steps <= 0):
-        k = int(np.flatnonzero(steps <= 0)[0])
-        return fatal("time_order", float(time[k + 1]), f"time does not increase (after {time[k]:.6g} s)")
+    if found := not_rising(time):
+        after, text = found
+        return fatal("time_order", float(time[after]), text)
     return []
 
 

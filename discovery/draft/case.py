@@ -49,8 +49,8 @@ def new_case(name: str, data: Sequence[Path], out: Path, libraries: Sequence[Pat
     model = Model(compile_model(name, search_path=search_path(libraries)).path)
     recorded = _distinct([read_recording(path) for path in data])
     for one in recorded:
-        if reason := not_rising(one.time):
-            raise CaseError(f"{one.name}: {reason}; was it written with too few digits?")
+        if disorder := not_rising(one.time):
+            raise CaseError(f"{one.name}: {disorder[1]}; was it written with too few digits?")
     matches = matched(_common_heads(recorded), _targets(model))
     recorded = [_kelvins(one, matches) for one in recorded]
     matches = matched(recorded[0].heads, _targets(model))

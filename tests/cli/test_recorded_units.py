@@ -49,6 +49,15 @@ def test_samples_that_do_not_cover_the_run_are_held_with_a_word(tmp_path: Path) 
         assert said in result.output and ("is held" in result.output) == bool(said)
 
 
+@pytest.mark.parametrize(("start", "said"), [(0.0, False), (0.25, True), (1e-15, False)])
+def test_samples_that_begin_late_are_held_with_a_word(tmp_path: Path, start: float, said: bool) -> None:
+    """Within one interval of the samples, too; rounding is not late."""
+    (tmp_path / "late.csv").write_text(f"time,u\n{start},3\n0.5,4\n1,5\n", encoding="utf-8")
+    result = lacuna.load(turn(tmp_path, "rpm")).simulate(inputs={"u": lacuna.recorded(tmp_path / "late.csv", "u")})
+    assert result["y"][0] == pytest.approx(6)
+    assert any("samples from 0.25 to 1 s" in w for w in result.warnings) == said
+
+
 def test_one_sample_is_held_with_a_word(tmp_path: Path) -> None:
     (tmp_path / "one.csv").write_text("time,u\n0.5,3\n", encoding="utf-8")
     result = lacuna.load(turn(tmp_path, "rpm")).simulate(inputs={"u": lacuna.recorded(tmp_path / "one.csv", "u")})
@@ -130,3 +139,15 @@ def test_a_unit_that_is_none_is_said(tmp_path: Path) -> None:
     assert "furlong is no unit known here" in result.warnings[0]
     with pytest.raises(Exception, match="y is in furlong, which is no unit known here"):
         lacuna.compare_with_file(turn(tmp_path, "rad/s"), tmp_path / "r.csv")
+
+
+def test_what_is_no_number_or_no_name_is_said_to_be_none(tmp_path: Path) -> None:
+    model = lacuna.load(turn(tmp_path, "rad/s"))
+    for name in ("start", "stop", "rtol", "interval"):
+        with pytest.raises(lacuna.UserError, match=f"{name} cannot be '2': that is no number"):
+            model.simulate(**{name: "2"})
+    for function in (lacuna.compare, lacuna.load, lambda loaded: lacuna.compare_with_file(loaded, "r.csv")):
+        with pytest.raises(
+            lacuna.UserError, match="a model is given here by its name or file, not as Model; write 'Turn'"
+        ):
+            function(model)

@@ -164,6 +164,8 @@ template <class M> struct Generated {
                                      nullptr,
                                      0,
                                      nullptr,
+                                     nullptr,
+                                     0,
                                      nullptr};
     return &d;
   }

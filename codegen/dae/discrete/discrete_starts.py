@@ -1,7 +1,8 @@
 """Initial equations of discrete variables.
 
 n = e with e of parameters is a start value. Any other e is computed at the start: `if initial() then n := e` stands
-before what sets n at events, and the start is iterated until nothing changes any more (Modelica 3.6, 8.6).
+before what sets n at events, and the start is iterated until nothing changes any more (Modelica 3.6, 8.6). Where an
+equation defines n at all times, pre(n) = e says what is read for pre(n) while initial() is true.
 """
 
 from __future__ import annotations
@@ -12,9 +13,9 @@ from lacuna.codegen import flat
 from lacuna.codegen.dae.discrete.events import sorted_body
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.constants import is_parametric
-from lacuna.codegen.symbolic.expr import TRUE, Expr, special, transform
+from lacuna.codegen.symbolic.expr import TRUE, Expr, if_else, special, transform
 from lacuna.codegen.symbolic.leaves import leaves
-from lacuna.codegen.symbolic.rewrite import assigned
+from lacuna.codegen.symbolic.rewrite import Rewriter, assigned
 from lacuna.codegen.symbolic.union_find import UnionFind
 
 Assigns = dict[str, flat.Assign]
@@ -27,6 +28,7 @@ def discrete_starts(model: flat.FlatModel) -> flat.FlatModel:
     at_events = {n for w in model.whens for n in assigned([w])}.union(*(a.targets for a in model.algorithms))
     by_equation = _defined_by_equations(model, at_events)
     told: dict[Expr, Expr] = {}  # pre(n) of those that have got their start here
+    at_start: dict[Expr, Expr] = {}  # what is read for pre(n)
     for eq in sorted(model.initial_equations, key=_reads_pre):
         name = _defined(eq, variables, at_events, computed.keys())
         if name is None:
@@ -38,6 +40,8 @@ def discrete_starts(model: flat.FlatModel) -> flat.FlatModel:
             if own.op == "pre":
                 told[own] = value
             variables[name] = replace(variables[name], start=value)
+        elif name in by_equation and own.op == "pre" and own not in leaves(value):
+            at_start[own] = if_else(special("initial"), value, own)
         elif name in by_equation:
             raise Diagnostic(
                 "S024", f"the initial value of the discrete variable {name} does not follow from parameters",
@@ -46,7 +50,18 @@ def discrete_starts(model: flat.FlatModel) -> flat.FlatModel:
         else:
             computed[name] = flat.Assign(name, value, eq.span)
     model = replace(model, variables=variables, initial_equations=equations)
+    model = _read_at_start(model, at_start) if at_start else model
     return _with_assignments(model, computed) if computed else model
+
+
+def _read_at_start(model: flat.FlatModel, values: dict[Expr, Expr]) -> flat.FlatModel:
+    rewriter = Rewriter(values.get)
+    return replace(
+        model,
+        equations=[rewriter.equation(e) for e in model.equations],
+        whens=[rewriter.statement(w) for w in model.whens],
+        algorithms=[replace(a, statements=rewriter.statements(a.statements)) for a in model.algorithms],
+    )
 
 
 def _reads_pre(eq: flat.Equation) -> bool:
