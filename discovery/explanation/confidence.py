@@ -61,12 +61,13 @@ def tie(finding: Finding) -> list[dict[str, str]]:
 
 
 def alternatives(finding: Finding, share: float) -> list[dict[str, Any]]:
-    """What else was tried, the likeliest first; and, last, none of it."""
+    """What else was tried, the likeliest first; and, last, none of it. As nothing is claimed with more than `CERTAIN`,
+    nothing is excluded with more."""
     ordered = sorted(_by_identity(finding).items(), key=lambda item: -item[1])
     return [
-        {"effect": effect, "location": location, "confidence": of_all * share}
+        {"effect": effect, "location": location, "confidence": max(of_all * share, 1.0 - CERTAIN)}
         for (effect, location), of_all in ordered if (effect, location) != finding.ranked.identity
-    ][:5] + [{"effect": NONE, "location": "", "confidence": 1.0 - share}]  # fmt: skip
+    ][:5] + [{"effect": NONE, "location": "", "confidence": 1.0 - min(share, CERTAIN)}]  # fmt: skip
 
 
 def certainty(result: Explanation) -> str:

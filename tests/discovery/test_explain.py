@@ -121,6 +121,9 @@ def test_the_amended_file_gives_the_reported_numbers(explained: Explanation, tmp
     assert judged.validate[""] == pytest.approx(data["nrmse"]["validate"]["after"], rel=1e-4)
     assert data["nrmse"]["validate"]["after"] == pytest.approx(in_memory, rel=1e-4)
     assert data["amended_model"] == path.name
+    first = data["findings"][0]
+    assert first["confidence"] <= 0.999
+    assert all(r["confidence"] >= 0.001 for r in first["alternatives"])  # nothing is excluded more surely than claimed
     page = report.write(explained, tmp_path, path).read_text()
     assert "friction.coulomb" in page and 'src="http' not in page and 'href="http' not in page
 
