@@ -17,6 +17,7 @@ from lacuna.codegen.dae.discrete import events
 from lacuna.codegen.dae.discrete.discrete_starts import discrete_starts
 from lacuna.codegen.dae.discrete.first_values import first_values
 from lacuna.codegen.dae.discrete.followers import followers
+from lacuna.codegen.dae.discrete.one_instant import one_instant
 from lacuna.codegen.dae.discrete.reinits_at_start import reinits_at_start
 from lacuna.codegen.dae.divisions import divisions
 from lacuna.codegen.dae.free_parameters import free_parameters
@@ -95,6 +96,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     split = report.run("initial system", reinits_at_start, split)
     split = report.run("initial system", first_values, split)
     frozen = report.run("hybrid", hybrid.analyse, split)
+    report.warnings += report.run("hybrid", one_instant, frozen.model, frozen.relations)
     model = report.run("initial system", discrete_starts, frozen.model)
     continuous, discrete = report.run("hybrid", events.split, model)
     system = report.run("index reduction", reduce_index, model, continuous, len(frozen.relations))

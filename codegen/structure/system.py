@@ -67,6 +67,7 @@ class System:
     switches: list[Switch] = field(default_factory=list)  # of dynamic choices of states
     dynamic: list[str] = field(default_factory=list)  # states that stand now for this, now for that variable
     preferred: list[str] = field(default_factory=list)  # and for these at the start
+    differentiated: list[tuple[Expr, Expr]] = field(default_factory=list)  # variables with derivatives that are dummies
 
     @cached_property
     def derivatives(self) -> list[Expr]:

@@ -142,6 +142,11 @@ typedef struct {
   mdl_storage storage; /* MDL_PARAMETER, MDL_DERIVATIVE or MDL_ALGEBRAIC */
   int index, equation;
 } mdl_computed;
+
+/* An algebraic variable, its derivative and an equation that was differentiated: it may bend at events, not jump. */
+typedef struct {
+  int index, rate, equation; /* v[index], v[rate] */
+} mdl_lasting;
 struct mdl_tangents;
 
 typedef struct mdl_descriptor {
@@ -262,6 +267,9 @@ typedef struct mdl_descriptor {
 
   int n_branches;
   const mdl_computed *branches; /* [n_branches] where nonlinear blocks start from, and the first equation of each */
+
+  int n_lasting;
+  const mdl_lasting *lasting; /* [n_lasting] NULL: the equations that were differentiated do not switch */
 } mdl_descriptor;
 
 typedef const mdl_descriptor *(*mdl_descriptor_fn)(void);

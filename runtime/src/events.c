@@ -272,8 +272,8 @@ rt_status rt_event(rt_session *s) {
   if (s->pending & RT_PENDING_STATE) switch_relations(s);
   if (s->pending & (RT_PENDING_TIME | RT_PENDING_SAMPLE)) rt_clock_tick(s);
   rt_jump_begin(s);
-  if ((status = rt_iterate_event(s)) || (status = rt_jump_end(s)) || (status = check_chattering(s, since)) ||
-      (status = rt_follow_undetermined(s)))
+  if ((status = rt_iterate_event(s)) || (status = rt_check_lasting(s)) || (status = rt_jump_end(s)) ||
+      (status = check_chattering(s, since)) || (status = rt_follow_undetermined(s)))
     return status;
   if (has_fallen_back(s)) {
     s->result->n_events = logged;

@@ -251,7 +251,7 @@ void rt_scale_grow(rt_session *s);
 double rt_least_share(double tolerance);
 rt_status rt_check_parameters(rt_session *s);
 rt_status rt_check_values(rt_session *s, double t, const double *x, const double *xdot, const double *v);
-rt_status rt_check_point(rt_session *s, bool fresh);
+rt_status rt_check_point(rt_session *s, bool fresh), rt_check_lasting(rt_session *s);
 
 /* inputs.c and clock.c */
 void rt_inputs_reset(rt_session *s);

@@ -134,6 +134,25 @@ class Tables:
         slot = self._p.storage.slot(str((unknown.args[0] if derivative else unknown).value))
         return f"MDL_{'DERIVATIVE' if derivative else _STORAGE[slot.array]}, {slot.index}"
 
+    def lasting(self) -> list[str]:
+        """What has a derivative without being a state, where an equation that was differentiated switches at events.
+        With noDerivative the model says itself that its derivatives are what they are wherever values jump."""
+        system = self._p.system
+        rows = [row.integral for row in system.rows if row.integral is not None]
+        switching = [row for row in rows if any(map(self._of_events, row.leaves))]
+        promised = any(rule.unheard for rules in self._p.declared.derivatives.values() for rule in rules)
+        if not switching or promised:
+            return []
+        equation, found = self._equations.index(switching[0].source), []
+        for n, derivative in system.differentiated:
+            slots = [self._p.storage.slot(str(e.value)) for e in (n, derivative) if e.op == "var"]
+            if len(slots) == 2 and all(slot is not None and slot.array == "v" for slot in slots):
+                found.append(f"{{{slots[0].index}, {slots[1].index}, {equation}}}")
+        return found
+
+    def _of_events(self, n: Expr) -> bool:
+        return n.op in ("rel", "tick", "pre") or self._p.storage.is_discrete(n)
+
     def parameter_starts(self) -> list[str]:
         return [number(self._number(self._values.variable(n), 0.0)) for n in self._p.storage.parameters]
 

@@ -88,6 +88,7 @@ def _system(
         [s.switch().rewritten(rewriter) for s in selections],
         [name for s in selections for name in s.states],
         [str(rewriter.expression(d.args[0]).value) for s in selections for d in s.group.selected],
+        [(rewriter.expression(d.args[0]), rewriter.expression(d)) for d in variables if d in dummies],
     )
 
 
