@@ -77,3 +77,8 @@ def by_name(functions: dict[str, flat.Function], name: str) -> flat.Function:
     if name in functions:
         return functions[name]
     return tangent(by_name(functions, name.removesuffix(TANGENT)))
+
+
+def original(functions: dict[str, flat.Function], name: str) -> flat.Function:
+    """The function of the model that this is the tangent (of a tangent ...) of, or itself."""
+    return functions[name] if name in functions else original(functions, name.removesuffix(TANGENT))

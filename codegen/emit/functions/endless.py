@@ -7,7 +7,7 @@ import math
 
 from lacuna.codegen import flat
 from lacuna.codegen.symbolic.expr import BUILTINS, TRUE, Expr, walk
-from lacuna.codegen.symbolic.function_tangent import by_name
+from lacuna.codegen.symbolic.function_tangent import by_name, original
 from lacuna.codegen.symbolic.rewrite import all_statements, expressions
 
 ROUNDS = 10_000_000  # of all loops and calls inside one call from an equation: a tenth of a second
@@ -22,7 +22,9 @@ def frame(f: flat.Function) -> int:
 
 
 def may_not_end(f: flat.Function, functions: dict[str, flat.Function]) -> bool:
-    """Whether a call may take long, or much of the stack: it is counted."""
+    """Whether a call may take long, or much of the stack: it is counted. Of a tangent whether one of its function may:
+    it has the same loops and calls, and a few times the locals."""
+    f = original(functions, f.name)
     loops = any(isinstance(s, flat.For | flat.While) for s in all_statements(f.body))
     return loops or frame(f) > _LARGE or is_recursive(f, functions)
 
