@@ -32,12 +32,19 @@ def standard_errors(fit: Fit, lead: Lead | None = None) -> dict[str, float]:
     held = with_secants(lead.hold_fast(fit) if lead else fit)
     moved = held.estimate.values - fit.estimate.values
     variance = np.diag(covariance(held)) + moved**2 + solver_shift(held) ** 2 + input_shift(held) ** 2
-    free = undetermined(held.estimate.normal)
-    found = {}
-    for k, (f, v, open_) in enumerate(zip(fit.estimate.free, variance, free, strict=True)):
-        error = from_bound(held, k) if fit.estimate.at_bound(f.name) else float(np.sqrt(v))
-        found[f.name] = float("inf") if open_ or error >= f.upper - f.lower else error
-    return found
+    free = undetermined(held.estimate.normal) | ~narrowed(held)
+    return {
+        f.name: float("inf") if open_ else from_bound(held, k) if fit.estimate.at_bound(f.name) else float(np.sqrt(v))
+        for k, (f, v, open_) in enumerate(zip(fit.estimate.free, variance, free, strict=True))
+    }
+
+
+def narrowed(fit: Fit) -> np.ndarray:
+    """Of which parameters (p,) data or belief tell more than their bounds do, were all others known."""
+    estimate = fit.estimate
+    moves = np.sqrt(np.diag(estimate.normal))
+    within = np.array([(f.upper - f.lower) / f.scale for f in estimate.free])
+    return (moves > 0) & (within * np.where(moves > 0, moves, 1.0) > 1.0)
 
 
 def from_bound(fit: Fit, k: int) -> float:
@@ -65,12 +72,13 @@ def undetermined(normal: np.ndarray) -> np.ndarray:
 
 
 def covariance(fit: Fit) -> np.ndarray:
-    """Covariance (p, p) of the free parameters in their units, rows of those at a bound zero."""
+    """Covariance (p, p) of the free parameters in their units, rows of those at a bound zero, and of those of which
+    nothing is known but their bounds."""
     estimate = fit.estimate
     if not estimate.jacobian:
         return estimate.covariance(fit.inflation())
     scales = np.array([0.0 if estimate.at_bound(f.name) else f.scale for f in estimate.free])
-    inside = scales > 0
+    inside = (scales > 0) & narrowed(fit)
     inverse = np.zeros_like(estimate.normal)
     normal = estimate.normal[np.ix_(inside, inside)]
     size = np.sqrt(np.diag(normal))

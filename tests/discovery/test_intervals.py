@@ -13,7 +13,7 @@ from lacuna.discovery.case.noise import Noise, last_digit, sample_weights
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.fit.fit import fit
-from lacuna.discovery.fit.intervals import covariance, from_bound
+from lacuna.discovery.fit.intervals import covariance, from_bound, narrowed
 from lacuna.discovery.fit.lead import fit_believed
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.secants import input_shift
@@ -101,15 +101,17 @@ def test_rounding_that_repeats_widens_an_interval(shape: np.ndarray, repeats: bo
     assert bool(np.median(as_noise) < 0.5 * scatter) is repeats
 
 
-def test_what_the_data_hardly_tells_has_a_wide_interval() -> None:
+def test_what_the_data_does_not_tell_within_its_bounds_widens_nothing() -> None:
     """A stop beyond the motion moves the outputs by rounding: a pseudo-inverse in the parameters' own scales left it
-    without any error."""
+    with an error of 1e-11, and one in units of what they do lent its rounding to the others."""
     noise = Noise(1.0, 0.1, False)
     found = fitted(UNSTEADY + np.random.default_rng(0).normal(0.0, 1.0, 600), UNSTEADY, noise)
-    tiny = 1e-13 * np.random.default_rng(1).normal(0.0, 1.0, 600)
-    estimate = found.estimate
-    block = np.column_stack([estimate.jacobian[0][:, 0], tiny])
-    found.estimate = replace(estimate, jacobian=[block], normal=block.T @ block)
-    errors = np.sqrt(np.diag(covariance(found)))
-    assert errors[0] == pytest.approx(0.1 * np.linalg.norm(block[:, 0]) ** -1, rel=0.2)
-    assert errors[1] == pytest.approx(np.linalg.norm(tiny) ** -1, rel=0.2)
+    alone = np.sqrt(covariance(found)[0, 0])
+    slope = found.estimate.jacobian[0][:, 0]
+    block = np.column_stack([slope, 1e-13 * (slope + 0.01 * np.random.default_rng(1).normal(0.0, 1.0, 600))])
+    free = [found.estimate.free[0], Free("far", -5.0, 1.0, lower=-1e3, upper=0.0)]
+    found.estimate = replace(found.estimate, free=free, jacobian=[block], normal=block.T @ block)
+    assert list(narrowed(found)) == [True, False]
+    assert np.sqrt(covariance(found)[0, 0]) == pytest.approx(alone)
+    free[1] = replace(free[1], lower=-np.inf)
+    assert list(narrowed(found)) == [True, True]  # of nothing known, this is more
