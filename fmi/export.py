@@ -113,7 +113,8 @@ def _pack(request: FmuRequest, compiled: CompiledModel, prepared: Prepared, path
     tolerance = model.tolerance if model.tolerance > 0 else 1e-6
     values = {model.parameters[n].index: model.parameters[n].sign * float(v) for n, v in request.values.items()}
     settings = configuration(
-        token, request.solver, tolerance, model.start_time, model.stop_time, values, extents(variables.all)
+        token, request.solver, tolerance, model.start_time, model.stop_time, values, extents(variables.all),
+        variables.starting,
     )
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as scratch:
         root = Path(scratch) / "fmu"

@@ -51,21 +51,24 @@ def collect(folder: Path, model: str, configuration: str, version: str) -> tuple
 
 
 def configuration(
-    token: str, solver: str, rtol: float, start: float, stop: float, values: dict[int, float], arrays: dict[int, int]
-) -> str:
+    token: str, solver: str, rtol: float, start: float, stop: float, values: dict[int, float], arrays: dict[int, int],
+    starting: list[int],
+) -> str:  # fmt: skip
     """fmu_config.c: `values` replace declared parameters, by their index; `arrays` have more values than one, by their
-    value references, ascending."""
+    value references, ascending; `starting` are rows of states that start at a number."""
     tables = {
         "parameter": ("int", values), "value": ("double", map(repr, values.values())),
         "array": ("fmu_array", (f"{{{first}, {n}}}" for first, n in arrays.items())),
+        "starting": ("int", starting),
     }  # fmt: skip
     written = {name: (kind, ", ".join(map(str, numbers))) for name, (kind, numbers) in tables.items()}
     return (
-        '/* What this FMU alone has: its token, solver, experiment, parameters and arrays. */\n#include "fmu.h"\n\n'
+        '/* What this FMU alone has: its token, solver, experiment, parameters, arrays and states that may be set. */\n#include "fmu.h"\n\n'
         + "".join(f"static const {kind} {name}[] = {{{text}}};\n" for name, (kind, text) in written.items() if text)
         + f'\nconst fmu_config fmu_configuration = {{\n    .token = "{token}",\n    .solver = "{solver}",\n'
         f"    .rtol = {rtol!r},\n    .start_time = {start!r},\n    .stop_time = {stop!r},\n"
         f"    .n_parameters = {len(values)},\n    .n_arrays = {len(arrays)},\n"
+        f"    .n_starting = {len(starting)},\n"
         + "".join(f"    .{name} = {name},\n" for name, (_, text) in written.items() if text)
         + "};\n"
     )

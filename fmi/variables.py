@@ -81,6 +81,11 @@ class FmiVariables:
                  if isinstance(s, Assignment) and s.row.source.text.startswith("start of")}  # fmt: skip
         return {name: float(value.value) for name, value in given.items() if value.op == "const"}
 
+    @property
+    def starting(self) -> list[int]:
+        """Rows of these states in the table of variables, ascending."""
+        return sorted(v.row for v in self.model.variables.values() if v.kind == "state" and v.name in self._starting)
+
     def _row(self, v: runtime.Variable) -> FmiVariable:
         declared = self._prepared.declared.variables[v.name]
         common = {

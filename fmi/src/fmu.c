@@ -35,7 +35,7 @@ static bool begin_life(fmu *f) {
   if (!new_session(f)) return false;
   drive(f);
   f->mode = FMU_SETUP;
-  f->begun = f->fresh = f->retuned = f->driven = false;
+  f->begun = f->fresh = f->retuned = f->untuned = f->driven = false;
   return true;
 }
 
@@ -121,7 +121,7 @@ bool fmu_exit_initialisation(fmu *f) {
   if (f->mode != FMU_INITIALISATION) return fmu_refuse(f, "initialisation has not begun");
   if (!fmu_refresh(f)) return false;
   f->mode = f->co_simulation && !f->event_mode ? FMU_STEP : FMU_EVENT;
-  f->retuned = f->driven = false;
+  f->retuned = f->untuned = f->driven = false;
   return true;
 }
 

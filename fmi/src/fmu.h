@@ -25,6 +25,8 @@ typedef struct {
   const double *value;
   int n_arrays;
   const fmu_array *array; /* [n_arrays] by ascending references; of FMI 2.0 there are none */
+  int n_starting;         /* states that start at a number: others follow from the initial equations */
+  const int *starting;    /* [n_starting] rows of the table of variables, ascending */
 } fmu_config;
 extern const fmu_config fmu_configuration;
 const mdl_descriptor *mdl_descriptor_get(void);
@@ -45,6 +47,7 @@ typedef struct fmu {
   bool begun;        /* the initial equations are solved for what is set now */
   bool fresh;        /* xdot and v belong to t, x and u */
   bool retuned;      /* parameters were set since the last event */
+  bool untuned;      /* and what depends on them is not computed yet */
   bool driven;       /* inputs were set since the last event */
   bool logging;
   void *environment;
@@ -83,6 +86,7 @@ bool fmu_directional(fmu *f, size_t n_unknowns, const unsigned *unknowns, size_t
 
 /* fmu_events.c: model exchange, and the events of both */
 bool fmu_enter_event(fmu *f);
+bool fmu_retune(fmu *f);
 bool fmu_happen(fmu *f, fmu_news *news);
 bool fmu_set_time(fmu *f, double time);
 /* Of the continuous states and the indicators; all refuse a count that is not theirs. */

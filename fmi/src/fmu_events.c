@@ -76,7 +76,8 @@ static bool keeps_delays(fmu *f) {
   return true;
 }
 
-static bool retune(fmu *f) {
+/* What depends on parameters that were set. */
+bool fmu_retune(fmu *f) {
   rt_session *s = f->session;
   memcpy(s->data.p, s->p_run, (size_t)s->d->n_p * sizeof *s->p_run);
   if (s->d->parameters(&s->data)) return fmu_done(f, rt_fail_model(s, s->t, "computing parameters"));
@@ -84,7 +85,7 @@ static bool retune(fmu *f) {
   if (!status) status = rt_scale_parameters(s);
   if (status) return fmu_done(f, status);
   rt_scale_start(s);
-  f->retuned = f->fresh = false;
+  f->untuned = f->fresh = false;
   return keeps_delays(f) && reset_clocks(f);
 }
 
@@ -95,7 +96,8 @@ bool fmu_happen(fmu *f, fmu_news *news) {
   if (f->retuned) {
     s->pending |= RT_PENDING_JUMP;
     news->nominals_changed = true;
-    if (!retune(f)) return false;
+    if (f->untuned && !fmu_retune(f)) return false;
+    f->retuned = false;
   }
   if (f->driven) s->pending |= RT_PENDING_JUMP;
   if (s->pending) {

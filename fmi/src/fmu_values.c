@@ -25,6 +25,7 @@ bool fmu_refresh(fmu *f) {
     return f->begun;
   }
   if (f->fresh) return true;
+  if (f->untuned && !fmu_retune(f)) return false;
   s->input_time = NAN;
   f->fresh = !rt_evaluate(s);
   return f->fresh || fmu_done(f, rt_fail_model(s, s->t, "evaluating the model"));
@@ -144,9 +145,17 @@ bool fmu_get(fmu *f, size_t n, const unsigned *references, fmu_type type, void *
   return true;
 }
 
-/* A state's initial value replaces what the initial equations say. */
+static int by_row(const void *a, const void *b) {
+  return *(const int *)a - *(const int *)b;
+}
+
+/* A state's initial value replaces the one that it is declared with; what initial equations determine has none. */
 static bool set_initial(fmu *f, const mdl_variable *v, double value) {
+  const fmu_config *c = &fmu_configuration;
   rt_session *s = f->session;
+  int row = (int)(v - s->d->variables);
+  if (!c->n_starting || !bsearch(&row, c->starting, (size_t)c->n_starting, sizeof row, by_row))
+    return fmu_refuse(f, "%s follows from the initial equations: it cannot be set", v->name);
   int k = 0;
   while (k < s->n_initial && s->initial_index[k] != v->index)
     k++;
@@ -164,8 +173,8 @@ static bool set_parameter(fmu *f, const mdl_variable *v, double value) {
     return fmu_refuse(f, "parameter %s = %.9g is outside its bounds [%.9g, %.9g] %s", v->name, value, v->min, v->max,
                       v->unit);
   s->p_run[v->index] = v->sign * value;
-  f->retuned = true;
-  if (is_before_start(f)) outdate(f);
+  f->retuned = f->untuned = true;
+  outdate(f);
   return true;
 }
 
@@ -230,6 +239,8 @@ bool fmu_directional(fmu *f, size_t n_unknowns, const unsigned *unknowns, size_t
   mdl_data *m = &s->data;
   size_t rows = 1 + (size_t)d->n_p + (size_t)d->n_u + 3 * (size_t)d->n_x + (size_t)d->n_v + 2 * (size_t)d->n_d;
   if (!d->tangents) return fmu_refuse(f, "this FMU was made without derivatives");
+  if (f->mode == FMU_INITIALISATION && fmu_configuration.n_starting < d->n_x)
+    return fmu_refuse(f, "derivatives do not follow the initial equations: there are some from event mode on");
   if (!fmu_refresh(f)) return false;
   memset(f->tangent_rows, 0, rows * MDL_LANES * sizeof(double));
   for (size_t i = 0; i < n_knowns; i++)
