@@ -77,5 +77,6 @@ def _with_file(found: lacuna.Agreement) -> Answer:
         table.add_column(column, justify="left" if column == "signal" else "right")
     for name, maximum, rms, relative, at in found.rows:
         table.add_row(name, f"{maximum:.3e}", f"{rms:.3e}", f"{relative:.3e}", f"{at:g}")
+    missing = [f"{name}: the file has no sample at {n} of {every} instants" for name, n, every in found.missing]
     failure = f"beyond the tolerance of {found.tolerance:g}: {', '.join(found.beyond)}" if found.beyond else ""
-    return Answer(asdict(found) | {"beyond": found.beyond}, [table], failure=failure)
+    return Answer(asdict(found) | {"beyond": found.beyond}, [table, *missing], failure=failure)

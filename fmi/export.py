@@ -97,6 +97,14 @@ def _check(request: FmuRequest, path: Path) -> None:
         raise FmuError(f"{path}: the name of an FMU ends with .fmu")
 
 
+def _configuration(
+    request: FmuRequest, model: runtime.Model, variables: FmiVariables, token: str, tolerance: float
+) -> str:
+    values = {model.parameters[n].index: model.parameters[n].sign * float(v) for n, v in request.values.items()}
+    arrays, starting = extents(variables.all), variables.starting
+    return configuration(token, request.solver, tolerance, model.start_time, model.stop_time, values, arrays, starting)
+
+
 def _pack(request: FmuRequest, compiled: CompiledModel, prepared: Prepared, path: Path) -> Fmu:
     foreign = prepared.declared.foreign
     if foreign.libraries:
@@ -111,11 +119,7 @@ def _pack(request: FmuRequest, compiled: CompiledModel, prepared: Prepared, path
     token = _token(request, source)
     kinds = ("me", "cs") if request.kind == "both" else (request.kind,)
     tolerance = model.tolerance if model.tolerance > 0 else 1e-6
-    values = {model.parameters[n].index: model.parameters[n].sign * float(v) for n, v in request.values.items()}
-    settings = configuration(
-        token, request.solver, tolerance, model.start_time, model.stop_time, values, extents(variables.all),
-        variables.starting,
-    )
+    settings = _configuration(request, model, variables, token, tolerance)
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as scratch:
         root = Path(scratch) / "fmu"
         files = collect(root / "sources", source, settings, request.version)

@@ -63,7 +63,7 @@ def configuration(
     }  # fmt: skip
     written = {name: (kind, ", ".join(map(str, numbers))) for name, (kind, numbers) in tables.items()}
     return (
-        '/* What this FMU alone has: its token, solver, experiment, parameters, arrays and states that may be set. */\n#include "fmu.h"\n\n'
+        '/* What this FMU alone has. */\n#include "fmu.h"\n\n'
         + "".join(f"static const {kind} {name}[] = {{{text}}};\n" for name, (kind, text) in written.items() if text)
         + f'\nconst fmu_config fmu_configuration = {{\n    .token = "{token}",\n    .solver = "{solver}",\n'
         f"    .rtol = {rtol!r},\n    .start_time = {start!r},\n    .stop_time = {stop!r},\n"

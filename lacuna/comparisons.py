@@ -52,6 +52,7 @@ class Agreement:
     file: Path
     tolerance: float
     rows: tuple[tuple[str, float, float, float, float], ...]  # signal, maximum, RMS, relative, time
+    missing: tuple[tuple[str, int, int], ...] = ()  # signal, samples that the file lacks, of how many instants
 
     @property
     def beyond(self) -> list[str]:
@@ -180,7 +181,8 @@ def compare_with_file(
     result = loaded.run_at(time, list(columns), inputs or {}, progress)
     found = compared(result, time, columns)
     rows = tuple((d.name, d.maximum, d.rms, d.relative, d.at_time) for d in found)
-    return Agreement(loaded.name, Path(file), tolerance, rows)
+    lacking = ((name, int(np.isnan(values).sum()), len(time)) for name, values in columns.items())
+    return Agreement(loaded.name, Path(file), tolerance, rows, tuple(m for m in lacking if m[1]))
 
 
 def _simulated(

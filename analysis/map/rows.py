@@ -46,7 +46,7 @@ def compute_row(plant: Plant, chain: Chain, settings: Settings, severity: float)
     features = chain.analyse(record.currents, record.angle)
     analysed = perf_counter()
     stride = max(1, round(settings.sampling_rate / TRACE_RATE))
-    lines = 1 + int(SPECTRUM_LIMIT / chain.resolution)
+    lines = min(features.held.shape[1], 1 + int(SPECTRUM_LIMIT / chain.resolution))
     return Row(
         severity=severity,
         rms=features.rms.tolist(),

@@ -133,7 +133,8 @@ static void pass_all(stream *w, fmu *f) {
   int mode = f->mode;
   pass_within(w, &mode, FMU_SETUP, FMU_DONE);
   f->mode = mode;
-  pass_flag(w, &f->begun), pass_flag(w, &f->fresh), pass_flag(w, &f->retuned), pass_flag(w, &f->untuned), pass_flag(w, &f->driven);
+  pass_flag(w, &f->begun), pass_flag(w, &f->fresh), pass_flag(w, &f->retuned), pass_flag(w, &f->untuned),
+      pass_flag(w, &f->driven);
   pass(w, f->input, (size_t)f->session->d->n_u * sizeof *f->input);
   rt_onestep *solver = f->session->memory;
   PASS(solver->h_next), PASS(solver->last_log_error);

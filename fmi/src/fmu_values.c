@@ -129,8 +129,17 @@ size_t fmu_count(size_t n, const unsigned *references) {
   return values;
 }
 
+/* Numbers with a fraction are of Reals alone, truth values of Booleans; FMI 2.0 has these as integers. */
+static bool has_type(fmu *f, unsigned reference, fmu_type type) {
+  const mdl_variable *v = row_of(f, reference);
+  mdl_type own = v ? v->type : MDL_REAL;
+  if ((own == MDL_REAL) == (type == FMU_DOUBLE) && (type != FMU_BOOL || own == MDL_BOOLEAN)) return true;
+  return fmu_refuse(f, "%s is of another type", v ? v->name : "this variable");
+}
+
 bool fmu_get(fmu *f, size_t n, const unsigned *references, fmu_type type, void *values) {
   for (size_t i = 0, at = 0; i < n; i++) {
+    if (!has_type(f, references[i], type)) return false;
     for (unsigned k = 0, last = count(references[i]); k < last; k++, at++) {
       double value = 0;
       if (!get(f, references[i] + k, &value)) return false;
@@ -198,6 +207,7 @@ static bool set(fmu *f, unsigned reference, double value) {
 
 bool fmu_set(fmu *f, size_t n, const unsigned *references, fmu_type type, const void *values) {
   for (size_t i = 0, at = 0; i < n; i++) {
+    if (!has_type(f, references[i], type)) return false;
     for (unsigned k = 0, last = count(references[i]); k < last; k++, at++) {
       double value = type == FMU_DOUBLE ? ((const double *)values)[at]
                      : type == FMU_INT  ? ((const int *)values)[at]

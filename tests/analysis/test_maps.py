@@ -11,6 +11,7 @@ import pytest
 
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.map.maps import build_map
+from lacuna.analysis.map.plant import Record
 from tests.analysis.plants import ReferencePlant, paper_settings
 
 COARSE = ("step = 0.01", "step = 0.1")
@@ -43,6 +44,19 @@ def test_files_of_a_map(tmp_path, coarse):
         [0.2959, 0.3119, 0.3662, 0.4538, 0.5673, 0.6933], abs=1e-3
     )
     assert [row["peak_b_bin"] for row in rows] == ["44", "44", "44", "44", "43", "43"]
+
+
+def test_spectra_that_end_below_what_is_shown_are_drawn_as_far_as_they_go(tmp_path):
+    """A recording at 500 Hz has no line beyond 250 Hz: figures of it ended in an IndexError."""
+
+    class Slow(ReferencePlant):
+        def run(self, severity: float, **parameters: float) -> Record:
+            fast = super().run(severity, **parameters)
+            return Record(fast.currents[:, ::200], fast.speed[::200], fast.angle[::200], fast.counters)
+
+    rate = ("sampling_rate = 100000.0", "sampling_rate = 500.0")
+    build_map(Slow(), paper_settings(tmp_path, ("step = 0.01", "step = 0.25"), rate), tmp_path / "map")
+    assert (tmp_path / "map" / "spectra.svg").is_file()
 
 
 def test_summary_sets_published_beside_reproduced(tmp_path, coarse):

@@ -195,6 +195,10 @@ def test_compare_with_a_file_has_a_tolerance(tmp_path: Path) -> None:
     file = str(tmp_path / "run" / "SquareWaveServo.csv")
     assert lacuna("compare", SERVO, "--against", file, "--tolerance", "1e-4").exit_code == 0
     assert "w" in refused("compare", SERVO, "--against", file, "--tolerance", "1e-4", "-p", "R=3.4")
+    head, first, *rows = Path(file).read_text(encoding="utf-8").splitlines()
+    Path(file).write_text("\n".join([head, first, *(f"{row.split(',')[0]}," for row in rows)]) + "\n", encoding="utf-8")
+    done = lacuna("compare", SERVO, "--against", file, "--tolerance", "1e-4")
+    assert f"w: the file has no sample at {len(rows)} of {len(rows) + 1} instants" in done.output
 
 
 def test_compare_a_model_of_ones_own(tmp_path: Path) -> None:

@@ -19,6 +19,7 @@ JUMPS = {
 }
 BENDS = {
     "two branches that meet": "x = if s > 0.3 then s else 0.6 - s; der(x) = v;",
+    "the end of a ramp that is differentiated twice": "x = min(s, 0.2); der(x) = v; y = der(v);",
     "an absolute value": "x = 1e-9*abs(s); der(x) = v;",
     "a limit": "x = min(s, 0.2) + sin(time); der(x) = v;",
     "a discrete variable that does not change": "x = p*s; der(x) = v; when s > 0.1 then p = pre(p); end when;",

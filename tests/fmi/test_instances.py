@@ -35,11 +35,6 @@ def real(fmu, *names: str) -> list[float]:
     return list(fmu.getFloat64(references, sum(sizes[name] for name in names)))
 
 
-def set_real(fmu, **values: float) -> None:
-    for name, value in values.items():
-        (fmu.setFloat64 if hasattr(fmu, "setFloat64") else fmu.setReal)([fmu.vr[name]], [value])
-
-
 def states(fmu, version: str):
     return (fmu.getFMUState, fmu.setFMUState) if version == "3.0" else (fmu.getFMUstate, fmu.setFMUstate)
 
@@ -138,37 +133,6 @@ def test_dependent_parameters_follow_and_sample_clocks_are_set_anew(fmus: Fmus) 
             fmu.doStep(0.3 + 0.1 * k, 0.1)
             phi.append(real(fmu, "seen")[0])
         assert phi[1] == phi[5] and phi[0] != phi[1] and phi[5] != phi[7]
-
-
-@pytest.mark.parametrize("version", ["2.0", "3.0"])
-def test_what_depends_on_a_tuned_parameter_is_read_anew_at_once(fmus: Fmus, version: str) -> None:
-    """It was that of the old value until the next event or step."""
-    with fmus.instance("Root", "cs", version) as fmu:
-        begin(fmu)
-        x, y = real(fmu, "x", "y")
-        assert (x, y) == pytest.approx((2.0, 2.0))
-        set_real(fmu, a=4.0)
-        assert real(fmu, "b", "z", "der(x)") == pytest.approx([12.0, 24.0, 2.0])
-        fmu.doStep(0.0, 0.1)
-        assert real(fmu, "x") == pytest.approx([4.0 - 2.0 * np.exp(-0.1)], rel=1e-6)
-
-
-@pytest.mark.parametrize("version", ["2.0", "3.0"])
-def test_a_state_that_follows_from_an_initial_equation_is_not_set_nor_differentiated_before_it_does(
-    fmus: Fmus, version: str
-) -> None:
-    with fmus.instance("Root", "cs", version) as fmu:
-        with pytest.raises(Exception, match="[Ss]tatus|error"):
-            set_real(fmu, x=-1.0)
-        set_real(fmu, y=8.0)
-        start = {"startTime": 0.0}
-        if version == "2.0":
-            fmu.setupExperiment(**start)
-        fmu.enterInitializationMode(**({} if version == "2.0" else start))
-        assert real(fmu, "x") == pytest.approx([4.0])
-        derivative = fmu.getDirectionalDerivative
-        with pytest.raises(Exception, match="[Ss]tatus|error"):
-            derivative([fmu.vr["x"]], [fmu.vr["a"]], [1.0])
 
 
 def test_event_mode_stops_a_step_at_each_event(fmus: Fmus) -> None:
