@@ -68,8 +68,68 @@ static int find_return(rt_session *s, double *inside) {
   return 0;
 }
 
-/* Look in the step up to *inside for a guard that crossed twice: at the middle, then at the bottom of each parabola
- * through three points. Where one is found s->g belongs to *inside, otherwise *inside stays as it is. */
+/* What a guard is at three places of a step, u in [0, 1]: between the outer two it may be below zero. */
+typedef struct {
+  double u[3], g[3];
+} bracket;
+
+/* Could it be, judged by the parabola through the three with four times its curvature; *bottom: where that through them
+ * is lowest. */
+static bool may_cross(const bracket *b, double eps, double *bottom) {
+  double span = b->u[2] - b->u[0], where;
+  double left = (b->g[1] - b->g[0]) / (b->u[1] - b->u[0]), right = (b->g[2] - b->g[1]) / (b->u[2] - b->u[1]);
+  double curvature = 2 * (right - left) * span;
+  lowest(b->g[0], b->g[2], curvature, bottom);
+  *bottom = b->u[0] + *bottom * span;
+  return lowest(b->g[0], b->g[2], 4 * curvature, &where) < -eps && where > 0 && where < 1;
+}
+
+/* The next place to look at: the bottom of the parabola, where it is one between the outer two that says something
+ * new, else the middle of the longer part. */
+static double next_place(const bracket *b, double bottom, bool halve) {
+  double least = 1e-3 * (b->u[2] - b->u[0]);
+  bool is_new = bottom > b->u[0] + least && bottom < b->u[2] - least && fabs(bottom - b->u[1]) > least;
+  if (is_new && !halve && b->g[1] <= b->g[0] && b->g[1] <= b->g[2]) return bottom;
+  bool first = b->u[1] - b->u[0] > b->u[2] - b->u[1];
+  return 0.5 * (b->u[1] + b->u[first ? 0 : 2]);
+}
+
+/* The three places among four that stand about the lowest. */
+static void narrow(bracket *b, double u, double g) {
+  double places[4], values[4];
+  int n = 0, low = 0;
+  for (int k = 0; k < 3; k++) {
+    if (n == k && u < b->u[k]) places[n] = u, values[n++] = g;
+    places[n] = b->u[k], values[n++] = b->g[k];
+  }
+  for (int k = 1; k < 4; k++)
+    if (values[k] < values[low]) low = k;
+  int first = low < 2 ? 0 : 1;
+  memcpy(b->u, places + first, sizeof b->u);
+  memcpy(b->g, values + first, sizeof b->g);
+}
+
+/* Where in the step up to `end` guard r, of which the three are known, is on the other side: *where, 0: nowhere. What
+ * is too short for time to tell is no dip. */
+static int bottom_of(rt_session *s, int r, double end, bracket *b, double *where) {
+  double h = end - s->t_previous, sign = s->data.rel[r] ? 1 : -1, eps = rt_hysteresis(s, r), bottom;
+  *where = 0;
+  for (int pass = 1; may_cross(b, eps, &bottom) && (b->u[2] - b->u[0]) * h > rt_smallest_step(s); pass++) {
+    double u = next_place(b, bottom, pass % 3 == 0);
+    int status = rt_guards_at(s, s->t_previous + u * h, s->g_trial);
+    if (status) return status;
+    double g = sign * s->g_trial[r];
+    if (g < -eps) {
+      *where = u;
+      return 0;
+    }
+    narrow(b, u, g);
+  }
+  return 0;
+}
+
+/* Look in the step up to *inside for a guard that crossed twice: at the middle, then at the bottom of parabolas. Where
+ * one is found s->g belongs to *inside, otherwise *inside stays as it is. */
 int rt_find_dip(rt_session *s, double *inside) {
   double end = *inside, h = end - s->t_previous, where;
   rt_dense_prepare(s);
@@ -79,13 +139,16 @@ int rt_find_dip(rt_session *s, double *inside) {
   status = rt_guards_at(s, s->t_previous + 0.5 * h, s->g_low);
   for (int r = 0; !status && r < s->d->n_rel; r++) {
     if (!rt_is_state_relation(s, r) || s->flip[r] || rt_is_shaped(s, r)) continue;
-    double sign = s->data.rel[r] ? 1 : -1, a = sign * s->g_previous[r], middle = sign * s->g_low[r], b = sign * s->g[r];
+    double sign = s->data.rel[r] ? 1 : -1, middle = sign * s->g_low[r];
+    bracket b = {{0, 0.5, 1}, {sign * s->g_previous[r], middle, sign * s->g[r]}};
     if (middle > 0) rt_extend_guard(s, r, middle);
-    double eps = rt_hysteresis(s, r);
-    if (lowest(a, b, 4 * (a - 2 * middle + b), &where) >= -eps || where <= 0 || where >= 1) continue;
-    status = rt_guards_at(s, s->t_previous + where * h, s->g_trial);
-    if (status) break;
-    if (sign * s->g_trial[r] >= -eps) continue;
+    if (middle < -rt_hysteresis(s, r)) {
+      *inside = s->t_previous + 0.5 * h;
+      memcpy(s->g, s->g_low, (size_t)s->d->n_rel * sizeof *s->g);
+      return 0;
+    }
+    status = bottom_of(s, r, end, &b, &where);
+    if (status || where == 0) continue;
     *inside = s->t_previous + where * h;
     memcpy(s->g, s->g_trial, (size_t)s->d->n_rel * sizeof *s->g);
     return 0;

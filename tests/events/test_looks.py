@@ -75,6 +75,17 @@ def test_a_hall_sensor_counts_the_turns_of_a_coasting_rotor(tmp_path: Path, solv
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("level", (0.999, 0.9999, 0.999999))
+def test_peaks_far_narrower_than_a_look_are_found_each(tmp_path: Path, solver: str, level: float) -> None:
+    """One place tried in each piece of a step found a third of those of a hundredth of a turn."""
+    model = compiled(tmp_path, COASTING.replace("hall > 0.2", f"hall > {level}"))
+    result = runtime.simulate(model, solver=solver, stop=20.0, rtol=1e-8)
+    tops = int((8 * 1000 * (1 - np.exp(-0.2)) + 0.1 - np.pi / 2) / (2 * np.pi)) + 1
+    assert result["n"][-1] == tops
+    assert len(switchings(result)) == 2 * tops
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
 def test_any_other_guard_is_looked_at_as_often_as_results_are_wanted(tmp_path: Path, solver: str) -> None:
     model, half = compiled(tmp_path, PULSES), 0.05 * np.sqrt(np.log(2))
     result = runtime.simulate(model, solver=solver, stop=20.0, interval=0.05)
