@@ -96,17 +96,18 @@ static double next_place(const bracket *b, double bottom, bool halve) {
 
 /* The three places among four that stand about the lowest. */
 static void narrow(bracket *b, double u, double g) {
-  double places[4], values[4];
-  int n = 0, low = 0;
-  for (int k = 0; k < 3; k++) {
-    if (n == k && u < b->u[k]) places[n] = u, values[n++] = g;
-    places[n] = b->u[k], values[n++] = b->g[k];
-  }
-  for (int k = 1; k < 4; k++)
-    if (values[k] < values[low]) low = k;
-  int first = low < 2 ? 0 : 1;
-  memcpy(b->u, places + first, sizeof b->u);
-  memcpy(b->g, values + first, sizeof b->g);
+  bool left = u < b->u[1];
+  double first = left ? rt_min(b->g[0], g) : rt_min(b->g[0], b->g[1]);
+  double last = left ? rt_min(b->g[1], b->g[2]) : rt_min(g, b->g[2]);
+  const bracket was = *b;
+  if (left && first <= last)
+    *b = (bracket){{was.u[0], u, was.u[1]}, {was.g[0], g, was.g[1]}};
+  else if (left)
+    b->u[0] = u, b->g[0] = g;
+  else if (first <= last)
+    b->u[2] = u, b->g[2] = g;
+  else
+    *b = (bracket){{was.u[1], u, was.u[2]}, {was.g[1], g, was.g[2]}};
 }
 
 /* Where in the step up to `end` guard r, of which the three are known, is on the other side: *where, 0: nowhere. What
