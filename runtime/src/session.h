@@ -8,7 +8,6 @@
 #include <stddef.h>
 
 #include "dense.h"
-#include "fold.h"
 #include "lacuna_runtime.h"
 #include "patience.h"
 #include "result.h"
@@ -152,7 +151,6 @@ struct rt_session {
   int undetermined, n_held;   /* mdl_data.undetermined since the last event; terms that hold what it leaves open */
   struct rt_slopes *slopes;   /* reach.c; NULL: there are none */
   struct rt_held *held;       /* [n_x + n_z], undetermined.h */
-  rt_branches branches;
   rt_recorder recorder;
   struct rt_delays *delays;         /* delay.c; NULL: the model has none */
   struct rt_transports *transports; /* transport.c; NULL: the model has none */
@@ -162,6 +160,8 @@ struct rt_session {
   rt_failure failure;
   rt_result *result;
 };
+
+#define RT_MOST_VALUES 5e8 /* that a result may hold: 4 GiB */
 
 /* fmin and fmax without a call: neither argument is NaN here. */
 static inline double rt_min(double a, double b) {

@@ -166,8 +166,6 @@ template <class M> struct Generated {
                                      nullptr,
                                      nullptr,
                                      0,
-                                     nullptr,
-                                     0,
                                      nullptr};
     return &d;
   }

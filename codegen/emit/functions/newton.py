@@ -11,9 +11,6 @@ is no root, a limited gain throws each step to the other limit, the Jacobian is 
   Introduction to Numerical Continuation Methods, 2003), with steps of s that halve where Newton's method does not
   follow and double where it does. Where that does not leave the start (a Jacobian that is singular or not finite
   there), both ways are tried from starts moved by the sizes of the unknowns, up and down.
-
-How each step compares with the one before is kept for the runtime, which sees to it that a run follows one root
-(runtime/src/fold.c).
 """
 
 NEWTON = """\
@@ -28,7 +25,6 @@ typedef struct {
   const double *nominal; /* sizes of the unknowns */
   int phase, iterations, halvings, looks, moved, singular;
   double norm;
-  double last, ratio; /* size of Newton's last step, and the largest of a step to the one before */
   double low, high, low_r, high_r, length; /* one unknown: what has been searched, or the bracket; residuals there */
   double path, reached, stride;            /* several: s, the last s that was reached, the step */
 } mdl_newton;
@@ -44,24 +40,8 @@ static int mdl_newton_is_small(const mdl_newton *s, const double *step) {
   return 1;
 }
 
-/* Compare an undamped step from the start values with the one before. */
-static void mdl_newton_compare(mdl_newton *s, const double *step, int small) {
-  double size = 0.0;
-  for (int i = 0; i < s->n; ++i) size = fmax(size, fabs(step[i]) / s->nominal[i]);
-  if (!small && s->last > 0.0 && size > s->ratio * s->last) s->ratio = size / s->last;
-  s->last = size;
-}
-
-/* For the runtime: the first block, since it asked, whose steps do not shrink, or the one that comes nearest to it. */
-static void mdl_newton_tell(mdl_data *m, const mdl_newton *s, int equation) {
-  mdl_contraction *c = &m->contraction;
-  if (c->only ? c->only != 1 + equation : c->ratio > MDL_CONTRACTS || !(s->ratio > c->ratio)) return;
-  *c = (mdl_contraction){s->ratio, equation, c->only};
-}
-
 /* Begin at the start values, one way or the other. */
 static void mdl_newton_begin(mdl_newton *s, int phase) {
-  s->ratio = INFINITY;
   mdl_newton_place(s, s->work);
   s->phase = phase;
   s->iterations = s->halvings = 0;
@@ -146,7 +126,6 @@ static int mdl_newton_look(mdl_newton *s, double *r) {
   case MDL_DAMPED:
     if (s->iterations > 0 && !(norm <= s->norm) && s->halvings < MDL_HALVINGS) {
       ++s->halvings;
-      s->ratio = INFINITY;
       for (int i = 0; i < s->n; ++i) s->x[i] += s->work[s->n + i] *= 0.5;
       return 1;
     }
@@ -188,7 +167,6 @@ static void mdl_newton_step(mdl_newton *s, const double *step, int singular) {
     return;
   }
   const int small = mdl_newton_is_small(s, step);
-  if (s->phase == MDL_DAMPED) mdl_newton_compare(s, step, small);
   for (int i = 0; i < s->n; ++i) {
     s->work[s->n + i] = step[i];
     s->x[i] -= step[i];

@@ -166,7 +166,6 @@ class StepWriter:
                 self._assignment(a, declare=False)
             body.line(f"if ({block}.phase == MDL_SOLVED) break;")
             self._look(step, block)
-        body.line(f"mdl_newton_tell(m, &{block}, {self._equation_index(step.residuals[0].source)});")
         for a in (*step.tears, *(a.unknown for a in step.assignments)):
             body.define(a)
 
@@ -178,9 +177,7 @@ class StepWriter:
         body.line(f"double {block}_r[{2 * size}] = {{{residuals}}};")
         body.line(f"const int {block}_looked = mdl_newton_look(&{block}, {block}_r);")
         equation = self._equation_of(step.residuals, f"{block}.singular")
-        with body.scope(f"if ({block}.phase == MDL_FAILED)", []):
-            body.line(f"mdl_newton_tell(m, &{block}, {self._equation_index(step.residuals[0].source)});")
-            body.line(f"return mdl_fail(m, MDL_FAILURE_NEWTON, {equation}, 0.0);")
+        body.line(f"if ({block}.phase == MDL_FAILED) return mdl_fail(m, MDL_FAILURE_NEWTON, {equation}, 0.0);")
         body.line(f"if ({block}_looked) continue;")
         matrix = ", ".join(body.value(j) for line in step.jacobian for j in line)
         body.line(f"double {block}_a[{size * size}] = {{{matrix}}};")

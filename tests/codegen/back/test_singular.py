@@ -88,12 +88,6 @@ CASES = {
         "model Free\n  parameter Integer n(fixed=false); Real x(start=1);\ninitial equation\n  2*n = 4;\nequation\n"
         "  der(x) = -n*x;\nend Free;",
     ),
-    "discrete initial value from a state": (
-        "S024", 5, "n does not follow from parameters",
-        "model Counted\n  Real x(start=1); Integer n;\n  Integer k = if x > 2 then 1 else 0;\n"
-        "initial equation\n  pre(n) = k + 1;\n"
-        "equation\n  der(x) = -x; n = if x < 0 then pre(n) + 1 else pre(n);\nend Counted;",
-    ),
     "reinit of what is not a state": (
         "C002", 5, "is not a state here",
         "model Jump\n  Real x(start=0); Real y;\nequation\n  y = 2*x;\n  when x > 1 then reinit(y, 0); end when;\n"

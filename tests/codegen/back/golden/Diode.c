@@ -32,10 +32,6 @@ static const unsigned char mdl_z_branches[] = {
   1
 };
 
-static const mdl_computed mdl_branches[] = {
-  {MDL_ALGEBRAIC, 1, 1}
-};
-
 static const int mdl_residual_equation[] = {
   1,
   2
@@ -178,7 +174,6 @@ typedef struct {
   const double *nominal; /* sizes of the unknowns */
   int phase, iterations, halvings, looks, moved, singular;
   double norm;
-  double last, ratio; /* size of Newton's last step, and the largest of a step to the one before */
   double low, high, low_r, high_r, length; /* one unknown: what has been searched, or the bracket; residuals there */
   double path, reached, stride;            /* several: s, the last s that was reached, the step */
 } mdl_newton;
@@ -194,24 +189,8 @@ static int mdl_newton_is_small(const mdl_newton *s, const double *step) {
   return 1;
 }
 
-/* Compare an undamped step from the start values with the one before. */
-static void mdl_newton_compare(mdl_newton *s, const double *step, int small) {
-  double size = 0.0;
-  for (int i = 0; i < s->n; ++i) size = fmax(size, fabs(step[i]) / s->nominal[i]);
-  if (!small && s->last > 0.0 && size > s->ratio * s->last) s->ratio = size / s->last;
-  s->last = size;
-}
-
-/* For the runtime: the first block, since it asked, whose steps do not shrink, or the one that comes nearest to it. */
-static void mdl_newton_tell(mdl_data *m, const mdl_newton *s, int equation) {
-  mdl_contraction *c = &m->contraction;
-  if (c->only ? c->only != 1 + equation : c->ratio > MDL_CONTRACTS || !(s->ratio > c->ratio)) return;
-  *c = (mdl_contraction){s->ratio, equation, c->only};
-}
-
 /* Begin at the start values, one way or the other. */
 static void mdl_newton_begin(mdl_newton *s, int phase) {
-  s->ratio = INFINITY;
   mdl_newton_place(s, s->work);
   s->phase = phase;
   s->iterations = s->halvings = 0;
@@ -296,7 +275,6 @@ static int mdl_newton_look(mdl_newton *s, double *r) {
   case MDL_DAMPED:
     if (s->iterations > 0 && !(norm <= s->norm) && s->halvings < MDL_HALVINGS) {
       ++s->halvings;
-      s->ratio = INFINITY;
       for (int i = 0; i < s->n; ++i) s->x[i] += s->work[s->n + i] *= 0.5;
       return 1;
     }
@@ -338,7 +316,6 @@ static void mdl_newton_step(mdl_newton *s, const double *step, int singular) {
     return;
   }
   const int small = mdl_newton_is_small(s, step);
-  if (s->phase == MDL_DAMPED) mdl_newton_compare(s, step, small);
   for (int i = 0; i < s->n; ++i) {
     s->work[s->n + i] = step[i];
     s->x[i] -= step[i];
@@ -413,16 +390,12 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
     /* Diode.mo:14  u = R*i + v + u_C */
     double v_2_block_r[2] = {u - (R * i + v_2 + u_C)};
     const int v_2_block_looked = mdl_newton_look(&v_2_block, v_2_block_r);
-    if (v_2_block.phase == MDL_FAILED) {
-      mdl_newton_tell(m, &v_2_block, 1);
-      return mdl_fail(m, MDL_FAILURE_NEWTON, (const int[]){1, 1}[v_2_block.singular], 0.0);
-    }
+    if (v_2_block.phase == MDL_FAILED) return mdl_fail(m, MDL_FAILURE_NEWTON, (const int[]){1, 1}[v_2_block.singular], 0.0);
     if (v_2_block_looked) continue;
     double v_2_block_a[1] = {-(R * (I_s * (tmp1 * inverse_of_V_t)) + 1.0)};
     const int v_2_block_singular = mdl_solve(1, v_2_block_a, v_2_block_r);
     mdl_newton_step(&v_2_block, v_2_block_r, v_2_block_singular);
   }
-  mdl_newton_tell(m, &v_2_block, 1);
   /* Diode.mo:16  C*der(u_C) = i */
   const double der_u_C = i * inverse_of_C;
   v[1] = v_2;
@@ -547,7 +520,6 @@ static const mdl_descriptor mdl_model = {
   .hash = "",
   .jac_nnz = 4,
   .n_asserts = 0,
-  .n_branches = 1,
   .n_computed = 6,
   .n_d = 0,
   .n_divisions = 0,
@@ -595,7 +567,6 @@ static const mdl_descriptor mdl_model = {
   .check = mdl_check,
   .nominals = mdl_nominals,
   .divisions = mdl_divisions,
-  .branches = mdl_branches,
 };
 
 const mdl_descriptor *mdl_descriptor_get(void);
