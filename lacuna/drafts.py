@@ -73,5 +73,5 @@ def convert(recording: str | Path, out: str | Path, *, progress: Progress | None
     found = read_recorded(recording)
     tell(f"writing {out}")
     write_recorded(found, out)
-    disorder = dict.fromkeys(found_at[1] for c in found.channels if (found_at := not_rising(c.time)))
+    disorder = dict.fromkeys(at[1] for c in found.channels if (at := not_rising(c.time)))
     return (*found.notes, *disorder)

@@ -82,7 +82,7 @@ def covariance(fit: Fit) -> np.ndarray:
     inverse = np.zeros_like(estimate.normal)
     normal = estimate.normal[np.ix_(inside, inside)]
     size = np.sqrt(np.diag(normal))
-    size = np.outer(np.where(size > 0, size, 1.0), np.where(size > 0, size, 1.0))
+    size = np.outer(size, size)
     inverse[np.ix_(inside, inside)] = np.linalg.pinv(normal / size, hermitian=True) / size
 
     def sandwich(score: np.ndarray) -> np.ndarray:

@@ -10,7 +10,7 @@
 enum { HALVINGS = 45 };             /* of a step, to find where a divisor is zero */
 static const double pole = 1e6;     /* growth of a quotient on the way there that tells a pole from 0/0 */
 static const double shrunk = 1e3;   /* by what a divisor does so at least, or the quotient grows with its numerator */
-static const double impulse = 1e-6; /* of a size */
+static const double impulse = 1e-6; /* of a size: far above the 1e-10 to which the instant is known */
 static const double bend = 8;       /* most that a divisor may change by where it is zero, of what it does elsewhere */
 
 rt_status rt_check_parameters(rt_session *s) {
@@ -144,19 +144,8 @@ static rt_status check_divisions(rt_session *s, bool fresh) {
   return RT_OK;
 }
 
-/* Whether what jumps is the rate of something else, or as large as one before and now. */
-static bool is_rate(const rt_session *s, int i) {
-  const double *now = s->data.v, *before = s->v_before;
-  for (int k = 0; k < s->d->n_lasting; k++) {
-    int r = s->d->lasting[k].rate;
-    if (r == i || (fabs(now[r]) == fabs(now[i]) && fabs(before[r]) == fabs(before[i]))) return true;
-  }
-  return false;
-}
-
 /* After an event that has set no state: what has a derivative must not have jumped, or that would be an impulse. Where
- * a guard is located to 1e-10 of its size, branches that meet differ by as little. A rate may jump, at a corner of a
- * motion that is imposed: the impulse is in its own rate alone, which is that of either side. */
+ * a guard is located to 1e-10 of its size, branches that meet differ by as little. */
 rt_status rt_check_lasting(rt_session *s) {
   const double *now = s->data.v, *before = s->v_before;
   for (int k = 0; k < s->d->n_lasting && !s->reinitialised; k++) {
@@ -164,7 +153,7 @@ rt_status rt_check_lasting(rt_session *s) {
     int i = l->index, row;
     double size = rt_max(fabs(now[i]), fabs(before[i]));
     size = rt_max(size, rt_max(fabs(now[l->rate]), fabs(before[l->rate])) * (s->stop - s->start));
-    if (!(fabs(now[i] - before[i]) > impulse * size) || is_rate(s, i)) continue;
+    if (!(fabs(now[i] - before[i]) > impulse * size)) continue;
     row = rt_find_row(s, MDL_ALGEBRAIC, i);
     return rt_fail(s, RT_SINGULAR, s->t, row, &s->d->equations[l->equation],
                    "at time %.9g s an event makes %s jump from %.9g to %.9g, of which the model has the derivative: "

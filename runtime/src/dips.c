@@ -84,10 +84,13 @@ static bool may_cross(const bracket *b, double eps, double *bottom) {
   return lowest(b->g[0], b->g[2], 4 * curvature, &where) < -eps && where > 0 && where < 1;
 }
 
+static const double new_place = 1e-3; /* of a bracket: rounding weighs on the slopes between places that are nearer */
+enum { CREEP = 3 };                   /* of so many places one halves, so that a bracket shrinks where parabolas creep */
+
 /* The next place to look at: the bottom of the parabola, where it is one between the outer two that says something
  * new, else the middle of the longer part. */
 static double next_place(const bracket *b, double bottom, bool halve) {
-  double least = 1e-3 * (b->u[2] - b->u[0]);
+  double least = new_place * (b->u[2] - b->u[0]);
   bool is_new = bottom > b->u[0] + least && bottom < b->u[2] - least && fabs(bottom - b->u[1]) > least;
   if (is_new && !halve && b->g[1] <= b->g[0] && b->g[1] <= b->g[2]) return bottom;
   bool first = b->u[1] - b->u[0] > b->u[2] - b->u[1];
@@ -116,7 +119,7 @@ static int bottom_of(rt_session *s, int r, double end, bracket *b, double *where
   double h = end - s->t_previous, sign = s->data.rel[r] ? 1 : -1, eps = rt_hysteresis(s, r), bottom;
   *where = 0;
   for (int pass = 1; may_cross(b, eps, &bottom) && (b->u[2] - b->u[0]) * h > rt_smallest_step(s); pass++) {
-    double u = next_place(b, bottom, pass % 3 == 0);
+    double u = next_place(b, bottom, pass % CREEP == 0);
     int status = rt_guards_at(s, s->t_previous + u * h, s->g_trial);
     if (status) return status;
     double g = sign * s->g_trial[r];
@@ -143,15 +146,12 @@ int rt_find_dip(rt_session *s, double *inside) {
     double sign = s->data.rel[r] ? 1 : -1, middle = sign * s->g_low[r];
     bracket b = {{0, 0.5, 1}, {sign * s->g_previous[r], middle, sign * s->g[r]}};
     if (middle > 0) rt_extend_guard(s, r, middle);
-    if (middle < -rt_hysteresis(s, r)) {
-      *inside = s->t_previous + 0.5 * h;
-      memcpy(s->g, s->g_low, (size_t)s->d->n_rel * sizeof *s->g);
-      return 0;
-    }
-    status = bottom_of(s, r, end, &b, &where);
+    bool at_middle = middle < -rt_hysteresis(s, r);
+    where = 0.5;
+    if (!at_middle) status = bottom_of(s, r, end, &b, &where);
     if (status || where == 0) continue;
     *inside = s->t_previous + where * h;
-    memcpy(s->g, s->g_trial, (size_t)s->d->n_rel * sizeof *s->g);
+    memcpy(s->g, at_middle ? s->g_low : s->g_trial, (size_t)s->d->n_rel * sizeof *s->g);
     return 0;
   }
   return status;

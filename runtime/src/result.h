@@ -6,6 +6,8 @@
 
 #include "lacuna_runtime.h"
 
+#define RT_MOST_VALUES 5e8 /* that a result may hold: 4 GiB */
+
 struct rt_result {
   rt_failure failure;
   rt_counters counters;

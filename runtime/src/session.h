@@ -161,8 +161,6 @@ struct rt_session {
   rt_result *result;
 };
 
-#define RT_MOST_VALUES 5e8 /* that a result may hold: 4 GiB */
-
 /* fmin and fmax without a call: neither argument is NaN here. */
 static inline double rt_min(double a, double b) {
   return a < b ? a : b;
@@ -251,7 +249,8 @@ void rt_scale_grow(rt_session *s);
 double rt_least_share(double tolerance);
 rt_status rt_check_parameters(rt_session *s);
 rt_status rt_check_values(rt_session *s, double t, const double *x, const double *xdot, const double *v);
-rt_status rt_check_point(rt_session *s, bool fresh), rt_check_lasting(rt_session *s);
+rt_status rt_check_point(rt_session *s, bool fresh);
+rt_status rt_check_lasting(rt_session *s);
 
 /* inputs.c and clock.c */
 void rt_inputs_reset(rt_session *s);

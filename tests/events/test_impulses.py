@@ -15,6 +15,11 @@ JUMPS = {
         "x jump from 0.5 to 1",
         0.5,
     ),
+    "as a rate that jumps with it": (
+        "x = if s > 0.5 then 1 else 0; y = max(s, 0.5); der(x) + der(y) = v;",
+        "x jump from 0 to 1",
+        1.0,
+    ),
     "by way of another": ("y = if s > 1e-9 then 1e-9 else 0; x = y; der(x) = v;", "jump from 0 to 1e-09", 0.5),
 }
 BENDS = {

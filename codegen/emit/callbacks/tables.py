@@ -14,11 +14,18 @@ from lacuna.codegen.emit.text.c_text import SourceNames, c_string
 from lacuna.codegen.emit.text.expression import number
 from lacuna.codegen.errors import Span
 from lacuna.codegen.structure.causal import of_nonlinear
-from lacuna.codegen.structure.system import DeclaredValues
+from lacuna.codegen.structure.system import DeclaredValues, System
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.symbolic.leaves import leaves
 
 _STORAGE = {"x": "STATE", "v": "ALGEBRAIC", "d": "DISCRETE", "p": "PARAMETER", "u": "INPUT"}
+
+
+def _rates(system: System) -> set[Expr]:
+    """Derivatives of what is no state, and the variables that equations say they are, of either sign."""
+    rates = {derivative for _, derivative in system.differentiated}
+    sides = [{s.args[0] if s.op == "neg" else s for s in (row.lhs, row.rhs)} for row in system.rows]
+    return rates.union(*(pair for pair in sides if pair & rates and all(s.op == "var" for s in pair)))
 
 
 class Tables:
@@ -124,8 +131,9 @@ class Tables:
         return [str(int(z in several)) for z in self._p.residual.tears]
 
     def lasting(self) -> list[str]:
-        """What has a derivative without being a state, where an equation that was differentiated switches at events.
-        With noDerivative the model says itself that its derivatives are what they are wherever values jump."""
+        """What has a derivative without being a state, where an equation that was differentiated switches at events; but
+        for rates, which may jump at a corner of an imposed motion: the impulse is in their own rate alone. With
+        noDerivative the model says itself that its derivatives are what they are wherever values jump."""
         system = self._p.system
         rows = [row.integral for row in system.rows if row.integral is not None]
         switching = [row for row in rows if any(map(self._of_events, row.leaves))]
@@ -133,7 +141,10 @@ class Tables:
         if not switching or promised:
             return []
         equation, found = self._equations.index(switching[0].source), []
+        rates = _rates(system)
         for n, derivative in system.differentiated:
+            if n in rates:
+                continue
             slots = [self._p.storage.slot(str(e.value)) for e in (n, derivative) if e.op == "var"]
             if len(slots) == 2 and all(slot is not None and slot.array == "v" for slot in slots):
                 found.append(f"{{{slots[0].index}, {slots[1].index}, {equation}}}")
