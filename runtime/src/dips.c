@@ -85,7 +85,7 @@ static bool may_cross(const bracket *b, double eps, double *bottom) {
 }
 
 static const double new_place = 1e-3; /* of a bracket: rounding weighs on the slopes between places that are nearer */
-enum { CREEP = 3 };                   /* of so many places one halves, so that a bracket shrinks where parabolas creep */
+enum { CREEP = 3 }; /* of so many places one halves, so that a bracket shrinks where parabolas creep */
 
 /* The next place to look at: the bottom of the parabola, where it is one between the outer two that says something
  * new, else the middle of the longer part. */

@@ -131,7 +131,7 @@ class Tables:
         return [str(int(z in several)) for z in self._p.residual.tears]
 
     def lasting(self) -> list[str]:
-        """What has a derivative without being a state, where an equation that was differentiated switches at events; but
+        """What has a derivative and is no state, where an equation that was differentiated switches at events, but
         for rates, which may jump at a corner of an imposed motion: the impulse is in their own rate alone. With
         noDerivative the model says itself that its derivatives are what they are wherever values jump."""
         system = self._p.system
