@@ -32,7 +32,7 @@ _CALLBACKS = (
 )  # fmt: skip
 _DELAYS = {"delays": "mdl_delays", "delay_times": "mdl_delay_times", "delay_input": "mdl_delay_input"}
 _TRANSPORTS = {key: f"mdl_{key}" for key in ("transports", "transport_initial", "transport_input", "transport_points")}
-_SELDOM = ("lasting", "delay", "transport")
+_SELDOM = ("branches", "lasting", "delay", "transport")
 _COUNTED = ("variables", "equations", "asserts", "messages", "z", "computed", "divisions", *_SELDOM)
 
 
@@ -132,7 +132,8 @@ def _arrays(tables: Tables, checks: Checks, messages: list[str]) -> tuple[list[s
         "assert_values": ("int mdl_assert_values", tables.assert_values()),
         "asserts": ("mdl_assert mdl_asserts", tables.asserts()),
         "z": ("int mdl_z_index", tables.z_index()),
-        "branches": ("unsigned char mdl_z_branches", tables.z_branches()),
+        "several": ("unsigned char mdl_z_branches", tables.z_branches()),
+        "branches": ("mdl_computed mdl_branches", tables.branches()),
         "lasting": ("mdl_lasting mdl_lasting_rows", tables.lasting()),
         "residuals": ("int mdl_residual_equation", tables.residual_equations()),
         "p_start": ("double mdl_p_start", tables.parameter_starts()),
@@ -191,6 +192,7 @@ def _descriptor(prepared: Prepared, counts: dict[str, int], tangents: bool) -> s
         "division_equation": _pointer("mdl_division_equation", counts["n_divisions"]),
         **{name: f"mdl_{name}" for name in _CALLBACKS},
         **_guards(prepared),
+        **({"branches": "mdl_branches"} if "n_branches" in counts else {}),
         **({"lasting": "mdl_lasting_rows"} if "n_lasting" in counts else {}),
         **({"events_follow": " | ".join(follow)} if (follow := _follow(prepared)) else {}),
         **(_DELAYS if prepared.delays else {}),

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 23
+#define MDL_ABI_VERSION 22
 
 enum { MDL_FOLLOWS = 1, MDL_ARRIVAL = 2 }; /* bits of events_follow */
 
@@ -43,6 +43,18 @@ typedef struct {
   double value; /* offending value, where there is one */
   double bound; /* of a parameter: the one that it violates */
 } mdl_failure;
+
+/* How Newton's method came from the start values of nonlinear blocks to their roots: the largest ratio of one of its
+ * steps to the one before, INFINITY where it took other ways, of the first block where that was more than
+ * MDL_CONTRACTS; its first equation. `only`: 1 + that of the block to watch, 0: all. */
+typedef struct {
+  double ratio;
+  int equation, only;
+} mdl_contraction;
+
+/* Up to here the root is that of the start values' branch (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004,
+ * 2.1 and 5.1); towards a double root the ratio tends to 1/2. */
+#define MDL_CONTRACTS 0.25
 
 /* All memory of one run of one model; allocated by the runtime from the counts of the descriptor. */
 typedef struct mdl_data {
@@ -70,6 +82,7 @@ typedef struct mdl_data {
   double (*carried)(const struct mdl_data *m, int k, double end, double x, int order);
   int brief;    /* 1: rhs() may write no more of v than what it starts from at the next point */
   double shift; /* 0; by as many nominal values rhs() moves what is open away from the solution next to zero */
+  mdl_contraction contraction; /* in rhs() and initial_system(), since the runtime set its ratio to zero */
 } mdl_data;
 
 typedef enum {
@@ -251,6 +264,9 @@ typedef struct mdl_descriptor {
    * holds, unknowns that are constant between events among it. */
   const unsigned char *affine_guards;
   int (*guard_rates)(mdl_data *m, double t, const double *x, double *g);
+
+  int n_branches;
+  const mdl_computed *branches; /* [n_branches] where nonlinear blocks start from, and the first equation of each */
 
   int n_lasting;
   const mdl_lasting *lasting; /* [n_lasting] NULL: the equations that were differentiated do not switch */

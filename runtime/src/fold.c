@@ -1,68 +1,202 @@
-/* Algebraic unknowns that jump inside a step: the branch of a nonlinear block that they followed has ended (a fold).
+/* A run follows one solution of its nonlinear equations. Where that ends, at a fold, their Jacobian is singular, and
+ * behind it there is no solution or another one, to which Newton's method may jump.
  *
- * The run goes on, on another branch. Its sensitivities do not: the instant of the jump moves with the parameters, and
- * no guard tells how. A jump is told from a change that is only fast by halving the step around it: the half with the
- * larger change keeps all of a jump, while anything continuous shrinks until no tolerance sees it. */
+ * As long as the steps of Newton's method, from the solution at one point of the run to that at the next, shrink as
+ * they do for a simple root (MDL_CONTRACTS), the next is on the same branch. This is looked at without cost: the model
+ * notes it. Where they do not, the step is followed in halves, each from the solution at the end of the one before,
+ * until they do or until nothing changes that a tolerance sees. What still jumps when time hardly moves is a fold where
+ * the unknowns come near it as a root does, ever faster; and no jump where it is smaller, the shorter the way, as where
+ * a Jacobian vanishes but the solution goes on (q abs(q) = p at p = 0). All are ratios, so that nothing has a scale.
+ * Where they come near it as a line does, the equations themselves jump or have a corner, in noEvent or smooth. To the
+ * model it is an event, at which unknowns may jump: the trigger of Schmitt, made of a limited amplifier. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "sensitivity.h"
 
-enum { HALVINGS = 40 };            /* of a step: a root at its end has shrunk to a millionth by then */
-static const double sudden = 10;   /* times the rate of the step before */
-static const double visible = 100; /* tolerances: what IDA's algebraic unknowns may be off, and more */
+/* Pieces that may be looked at: of one step, enough for a hundred places that are followed down to the rounding of
+ * time; in the long run, as many evaluations for a step as the step itself takes of an explicit method. Where a
+ * function is smooth nowhere, what is more is taken as it is: a run ends in a time that grows with its steps. */
+enum { MOST_PIECES = 5000, PIECES_PER_STEP = 7 };
+static const double least = 1e-8; /* of a size: what Newton's method may be off by, and more */
+static const double longest = 0x1p20, first_way = 0x1p12, farther = 0x1p8; /* ways, in what time tells apart */
+static const double slower = 0x1p2,
+                    faster = 0x1p6; /* what a root of order 4 takes `farther` as, and less than a line */
 
-/* Unknown k of the residual form moves by this, from v0 to v1. */
-static double moved(const rt_session *s, int k, const double *v0, const double *v1) {
-  return fabs(v1[s->d->z_index[k]] - v0[s->d->z_index[k]]);
+static double *kept(const mdl_computed *c, double *v, double *xdot) {
+  return (c->storage == MDL_DERIVATIVE ? xdot : v) + c->index;
 }
 
-/* Whether unknown k jumps between t_previous and t, by more than `least`. Leaves inputs inside the step. */
-static bool jumps(rt_session *s, int k, double least) {
-  rt_sensitivities *f = s->sensitivities;
-  size_t size = (size_t)s->d->n_v * sizeof(double);
-  double a = s->t_previous, b = s->t, end = s->data.v[s->d->z_index[k]];
-  memcpy(f->v_low, f->v_previous, size);
-  rt_dense_prepare(s);
-  for (int i = 0; i < HALVINGS; i++) {
-    double middle = 0.5 * (a + b);
-    rt_dense_eval(&s->dense, s->d->n_x, middle, s->x_trial);
-    memcpy(s->v_trial, f->v_low, size);
-    if (rt_rhs(s, middle, s->x_trial, s->xdot_trial, s->v_trial)) return true;
-    double there = s->v_trial[s->d->z_index[k]], before = moved(s, k, f->v_low, s->v_trial), behind = fabs(end - there);
-    if (rt_max(before, behind) < least) return false;
-    if (before > behind) {
-      b = middle;
-      end = there;
-    } else {
-      a = middle;
-      memcpy(f->v_low, s->v_trial, size);
-    }
+/* Largest change in tolerances, of the unknowns of one block or of all (-1). */
+static double changed(rt_session *s, int equation) {
+  rt_branches *b = &s->branches;
+  double most = 0, tolerance = rt_max(s->options.rtol, least);
+  for (int k = 0; k < s->d->n_branches; k++) {
+    const mdl_computed *c = &s->d->branches[k];
+    if (equation >= 0 && c->equation != equation) continue;
+    double from = *kept(c, b->v_reached, b->xdot_reached), to = *kept(c, b->v_tried, b->xdot_tried);
+    double size = rt_max(b->size[k], rt_max(fabs(from), fabs(to)));
+    if (size > 0) most = rt_max(most, fabs(to - from) / (tolerance * size));
+  }
+  return most;
+}
+
+static void copy(const rt_session *s, double *v, double *xdot, const double *v_from, const double *xdot_from) {
+  memcpy(v, v_from, (size_t)s->d->n_v * sizeof *v);
+  memcpy(xdot, xdot_from, (size_t)s->d->n_x * sizeof *xdot);
+}
+
+/* The branch goes on from here. */
+static void set_out(rt_session *s, double t, double *v, double *xdot) {
+  rt_branches *b = &s->branches;
+  b->t = t;
+  copy(s, b->v, b->xdot, v, xdot);
+  for (int k = 0; k < s->d->n_branches; k++)
+    b->size[k] = rt_max(b->size[k], fabs(*kept(&s->d->branches[k], v, xdot)));
+  s->data.contraction.ratio = 0;
+}
+
+/* At the start of a run. */
+void rt_branch_start(rt_session *s) {
+  s->branches.pieces = MOST_PIECES;
+  memset(s->branches.size, 0, (size_t)s->d->n_branches * sizeof(double));
+  rt_branch_begin(s);
+}
+
+/* After an event and at an accepted point. */
+void rt_branch_begin(rt_session *s) {
+  s->branches.ended = false;
+  if (s->d->n_branches) set_out(s, s->t, s->data.v, s->data.xdot);
+}
+
+/* The point (t, x_trial) from the values reached, in v_tried; 0 found. `only`: 0, or 1 + the block to watch. */
+static int look_here(rt_session *s, double t, int only) {
+  rt_branches *b = &s->branches;
+  copy(s, b->v_tried, b->xdot_tried, b->v_reached, b->xdot_reached);
+  s->data.contraction = (mdl_contraction){.only = only};
+  return rt_rhs(s, t, s->x_trial, b->xdot_tried, b->v_tried);
+}
+
+static int look(rt_session *s, double t, int only) {
+  rt_dense_point(s, t, s->x_trial);
+  return look_here(s, t, only);
+}
+
+static double change_to(rt_session *s, double t, int equation) {
+  return look(s, t, 1 + equation) ? INFINITY : changed(s, equation);
+}
+
+/* Whether the unknowns of a block jump from `from` to `to`, which time hardly tells apart: by as much as they do over a
+ * longer way, as far as the step goes. */
+static bool jumps(rt_session *s, double from, double to, int equation) {
+  double way = to - from, longer = rt_max(0x1p4 * way, rt_min(longest * way, s->t - from));
+  return !(change_to(s, to, equation) <= 0.5 * change_to(s, from + longer, equation));
+}
+
+/* The change back to what was a short way before `from`, perhaps before the last step, which may be shorter still. */
+static double change_back(rt_session *s, double from, double way, int equation) {
+  rt_dense_point(s, from, s->x_trial);
+  for (int i = 0; i < s->d->n_x; i++)
+    s->x_trial[i] -= way * s->branches.xdot_reached[i];
+  return look_here(s, from - way, 1 + equation) ? INFINITY : changed(s, equation);
+}
+
+/* Along three ways: what rounding leaves of a line over a short way is hardly less over the next. */
+static bool comes_as_a_root(rt_session *s, double from, double way, int equation) {
+  double last = change_back(s, from, way *= first_way, equation);
+  for (int k = 0; k < 2; k++) {
+    double next = change_back(s, from, way *= farther, equation);
+    if (!(next > slower * last && next < faster * last)) return false;
+    last = next;
   }
   return true;
 }
 
-/* After an event, or at the start: no step lies behind. */
-void rt_fold_restart(rt_session *s) {
-  rt_sensitivities *f = s->sensitivities;
-  memcpy(f->v_previous, s->data.v, (size_t)s->d->n_v * sizeof(double));
-  for (int k = 0; k < s->d->n_z; k++)
-    f->rate[k] = NAN;
+/* The run ends with the last point of the branch, which is what the session is left at. */
+static rt_status fail(rt_session *s, double t, int equation) {
+  rt_branches *b = &s->branches;
+  char names[200] = "";
+  int first = -1;
+  for (int k = 0; k < s->d->n_branches; k++) {
+    const mdl_computed *c = &s->d->branches[k];
+    bool derivative = c->storage == MDL_DERIVATIVE;
+    int row = c->equation != equation ? -1 : rt_find_row(s, derivative ? MDL_STATE : c->storage, c->index);
+    if (row < 0) continue;
+    if (first < 0) first = row;
+    char name[100];
+    snprintf(name, sizeof name, derivative ? "der(%s)" : "%s", s->d->variables[row].name);
+    rt_append_name(names, sizeof names, name);
+  }
+  if (t > s->t_previous) rt_dense_point(s, t, s->data.x);
+  copy(s, s->data.v, s->data.xdot, b->v_reached, b->xdot_reached);
+  s->t = t;
+  s->pending = 0;
+  b->ended = true;
+  return rt_fail(s, RT_SINGULAR, t, first, &s->d->equations[equation],
+                 "the solution on this branch ends at time %.9g s, where the Jacobian of the block of %s is singular",
+                 t, names);
 }
 
-/* Whether an unknown jumps in the step from t_previous to t: sensitivities end there. */
-bool rt_fold_follow(rt_session *s) {
-  rt_sensitivities *f = s->sensitivities;
-  double h = s->t - s->t_previous;
-  bool jumped = false;
-  for (int k = 0; k < s->d->n_z && !jumped && h > 0; k++) {
-    if (s->d->z_branches && !s->d->z_branches[k]) continue;
-    double change = moved(s, k, f->v_previous, s->data.v), size = fabs(s->data.v[s->d->z_index[k]]);
-    double least = visible * (s->options.rtol * size + s->atol[s->d->n_x + k]);
-    jumped = change > least && !(change < sudden * f->rate[k] * h) && jumps(s, k, least);
-    f->rate[k] = change / h;
+/* From the values reached at `from` to those at `to`. */
+static rt_status follow(rt_session *s, double from, double to) {
+  rt_branches *b = &s->branches;
+  bool found = !look(s, to, 0), contracts = s->data.contraction.ratio <= MDL_CONTRACTS;
+  if (!found && contracts) return rt_fail_model(s, to, "following a branch"); /* something else has no value */
+  if (!contracts && b->pieces > 0 && (!found || changed(s, -1) > 1)) {
+    double middle = from + 0.5 * (to - from);
+    int equation = s->data.contraction.equation;
+    b->pieces--;
+    if (to - from > 2 * rt_time_resolution(s)) {
+      rt_status status = follow(s, from, middle);
+      return status ? status : follow(s, middle, to);
+    }
+    if (jumps(s, from, to, equation)) {
+      if (comes_as_a_root(s, from, to - from, equation)) return fail(s, from, equation);
+      if (s->sensitivities) rt_tangent_lose(s, RT_FLAG_FOLD, -1);
+    }
+    found = !look(s, to, 0);
   }
+  if (!found) return rt_fail_model(s, to, "following a branch");
+  copy(s, b->v_reached, b->xdot_reached, b->v_tried, b->xdot_tried);
+  return RT_OK;
+}
+
+static rt_status reach(rt_session *s, double t) {
+  rt_branches *b = &s->branches;
+  copy(s, b->v_reached, b->xdot_reached, b->v, b->xdot);
+  if ((b->pieces += PIECES_PER_STEP) > MOST_PIECES) b->pieces = MOST_PIECES;
+  rt_status status = follow(s, b->t, t);
+  s->data.contraction = (mdl_contraction){0};
   if (s->d->n_u) rt_inputs_at(s, s->t);
-  memcpy(f->v_previous, s->data.v, (size_t)s->d->n_v * sizeof(double));
-  return jumped;
+  return status;
+}
+
+/* A row at t inside the last step. */
+rt_status rt_branch_row(rt_session *s, double t, double *xdot, double *v) {
+  if (!s->d->n_branches || s->branches.ended) return RT_OK;
+  if (s->data.contraction.ratio > MDL_CONTRACTS) {
+    rt_status status = reach(s, t);
+    if (status) return status;
+    rt_inputs_at(s, t);
+    copy(s, v, xdot, s->branches.v_reached, s->branches.xdot_reached);
+  }
+  set_out(s, t, v, xdot);
+  return RT_OK;
+}
+
+/* To the end of the last step, or to the event that cut it short. Where the step has found another solution there, the
+ * run goes on from that of the branch. The step has passed the error test, of which its start on the branch is part. A
+ * multistep method solves the equations by itself: of how it came to their solution nothing is known. */
+rt_status rt_branch_follow(rt_session *s) {
+  rt_branches *b = &s->branches;
+  bool certain = !s->method->multistep && s->data.contraction.ratio <= MDL_CONTRACTS;
+  if (!s->d->n_branches || certain || !(s->t > b->t)) return RT_OK;
+  rt_status status = reach(s, s->t);
+  if (status) return status;
+  copy(s, b->v_tried, b->xdot_tried, s->data.v, s->data.xdot);
+  if (changed(s, -1) <= 1) return RT_OK;
+  copy(s, s->data.v, s->data.xdot, b->v_reached, b->xdot_reached);
+  if (s->method->multistep) s->pending |= RT_PENDING_BRANCH;
+  return RT_OK;
 }

@@ -254,7 +254,6 @@ rt_status rt_jump_end(rt_session *s) {
   memset(f->at.t, 0, (size_t)f->columns * sizeof(double));
   memset(f->at.u, 0, (size_t)(d->n_u * f->columns) * sizeof(double));
   memset(f->event_time, 0, (size_t)f->columns * sizeof(double));
-  rt_fold_restart(s);
   rt_status status = rt_tangent_evaluate(s);
   rt_tangent_check_finite(s);
   return status;

@@ -36,15 +36,18 @@ static bool allocate_numbers(rt_session *s) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
   rt_recorder *r = &s->recorder;
+  rt_branches *b = &s->branches;
   double **parameters[] = {&m->p, &s->p_run}, **inputs[] = {&m->u},
          **discrete[] = {&m->d, &m->pre_d, &s->d_swept, &s->d_before, &s->d_after};
   double **unknowns[] = {&s->range, &s->outgrown, &s->atol, &s->y, &s->yp},
          **samples[] = {&s->clock.first, &s->clock.interval};
-  double **algebraic[] = {&m->v, &s->v_trial, &s->v_before, &s->v_end, &s->v_agreed, &r->v}, **dense[] = {&s->dense.c},
-         **shapes[] = {&s->shape, &s->rates, &s->swing};
-  double **states[] = {&m->x,        &m->xdot,        &s->initial_value, &s->x_trial,  &s->xdot_trial,
-                       &s->x_before, &s->xdot_before, &s->x_end,         &s->xdot_end, &r->x,
-                       &r->xdot,     &s->x_swept,     &s->x_start};
+  double **algebraic[] = {&m->v, &s->v_trial, &s->v_before,  &s->v_end,  &s->v_agreed,
+                          &r->v, &b->v,       &b->v_reached, &b->v_tried},
+         **dense[] = {&s->dense.c}, **shapes[] = {&s->shape, &s->rates, &s->swing};
+  double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial,   &s->xdot_trial, &s->x_before,
+                       &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,         &r->xdot,       &s->x_swept,
+                       &s->x_start,     &b->xdot,  &b->xdot_reached,  &b->xdot_tried};
+  double **branches[] = {&b->size};
   double **sizes[] = {&s->nominal}, **division[] = {&s->division};
   double **guards[] = {&s->g,        &s->g_previous,    &s->g_low,         &s->g_trial, &s->g_before,
                        &s->g_oldest, &s->g_reach,       &s->bound,         &s->g_span,  &s->g_travel,
@@ -62,7 +65,8 @@ static bool allocate_numbers(rt_session *s) {
                           {sizes, COUNT(sizes), d->n_x + d->n_z + d->n_rel + d->n_delay},
                           {division, COUNT(division), 2 * d->n_divisions},
                           {guards, COUNT(guards), d->n_rel},
-                          {turns, COUNT(turns), d->n_phases}};
+                          {turns, COUNT(turns), d->n_phases},
+                          {branches, COUNT(branches), d->n_branches}};
   s->n_numbers = 1;
   for (size_t i = 0; i < COUNT(groups); i++)
     s->n_numbers += groups[i].count * (size_t)groups[i].n;

@@ -31,4 +31,6 @@ bool rt_result_reserve(rt_result *r, size_t rows);
 void rt_result_log(rt_result *r, double time, int kind, int index, int direction, double reach);
 void rt_result_flag(rt_result *r, double time, rt_flag_kind kind, int relation, int other);
 
+#define RT_MOST_VALUES 5e8 /* that a result may hold: 4 GiB */
+
 #endif

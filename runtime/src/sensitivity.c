@@ -44,7 +44,7 @@ static bool allocate(const mdl_descriptor *d, rt_sensitivities *f) {
   size_t n = (size_t)f->columns, n_x = (size_t)d->n_x, n_rel = (size_t)d->n_rel, n_sample = (size_t)d->n_sample;
   size_t size = bundle_size(d, f->columns, true) + bundle_size(d, f->columns, false) + bundle_size(d, MDL_LANES, true) +
                 n * (6 + n_x + n_rel + 2 * n_sample + (RT_DENSE_DEGREE + 1) * n_x) + n_rel * (1 + MDL_LANES) +
-                (size_t)d->n_u + 2 * (size_t)d->n_v + (size_t)d->n_z + 1;
+                (size_t)d->n_u + 1;
   double *next = f->numbers = calloc(size, sizeof *next);
   if (!next) return false;
   slice_bundle(d, &f->at, f->columns, NULL, &next);
@@ -64,9 +64,6 @@ static bool allocate(const mdl_descriptor *d, rt_sensitivities *f) {
   f->slopes = take(&next, n_rel);
   f->probed = take(&next, n_rel * MDL_LANES);
   f->input_slope = take(&next, (size_t)d->n_u);
-  f->v_previous = take(&next, (size_t)d->n_v);
-  f->v_low = take(&next, (size_t)d->n_v);
-  f->rate = take(&next, (size_t)d->n_z);
   return true;
 }
 
@@ -217,7 +214,6 @@ rt_status rt_tangent_begin(rt_session *s) {
   for (int k = 0; k < f->columns; k++)
     f->weight[k] = k >= f->n ? 1 : f->scale[k] > 0 ? 1 / f->scale[k] : INFINITY;
   if (s->d->tangents->rounds) rt_result_flag(s->result, s->start, RT_FLAG_ROUNDING, -1, -1);
-  rt_fold_restart(s);
   rt_status status = rt_tangent_evaluate(s);
   rt_tangent_check_finite(s);
   return status;
@@ -240,8 +236,7 @@ rt_status rt_tangent_evaluate(rt_session *s) {
 rt_status rt_tangent_follow(rt_session *s) {
   rt_sensitivities *f = s->sensitivities;
   if (!f || f->lost) return RT_OK;
-  if (rt_fold_follow(s)) rt_tangent_lose(s, RT_FLAG_FOLD, -1);
-  if (f->lost || (s->t == s->t_end && !s->in_pieces)) return RT_OK;
+  if ((s->t == s->t_end && !s->in_pieces)) return RT_OK;
   rt_tangent_inside(s, s->t);
   memcpy(f->at.x, f->inside.x, (size_t)(s->d->n_x * f->columns) * sizeof(double));
   f->complete = false;

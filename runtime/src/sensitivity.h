@@ -39,10 +39,8 @@ struct rt_sensitivities {
   rt_instant instant;
   double *x_before; /* [n_x * columns] states' tangents before the event */
   rt_dense dense;
-  double *v_previous, *v_low; /* [n_v] at the start of the step; inside it, while a jump is sought */
-  double *rate;               /* [n_z] mean rates of change in the last step */
-  bool complete;              /* v of `at`, and xdot, belong to its x */
-  bool lost;                  /* they do not exist from here on: an event was grazed, or they overflowed */
+  bool complete; /* v of `at`, and xdot, belong to its x */
+  bool lost;     /* they do not exist from here on: an event was grazed, or they overflowed */
 };
 
 static inline double *rt_rows(mdl_lanes *rows) {
@@ -61,10 +59,6 @@ void rt_tangent_inside(rt_session *s, double t);
 int rt_tangent_inside_point(rt_session *s, double t, const double *x, const double *xdot, const double *v);
 void rt_tangent_lose(rt_session *s, rt_flag_kind kind, int relation);
 void rt_tangent_check_finite(rt_session *s);
-
-/* fold.c */
-void rt_fold_restart(rt_session *s);
-bool rt_fold_follow(rt_session *s);
 
 /* jump.c */
 rt_status rt_jump_measure(rt_session *s);

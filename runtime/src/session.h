@@ -8,6 +8,7 @@
 #include <stddef.h>
 
 #include "dense.h"
+#include "fold.h"
 #include "lacuna_runtime.h"
 #include "patience.h"
 #include "result.h"
@@ -151,6 +152,7 @@ struct rt_session {
   int undetermined, n_held;   /* mdl_data.undetermined since the last event; terms that hold what it leaves open */
   struct rt_slopes *slopes;   /* reach.c; NULL: there are none */
   struct rt_held *held;       /* [n_x + n_z], undetermined.h */
+  rt_branches branches;
   rt_recorder recorder;
   struct rt_delays *delays;         /* delay.c; NULL: the model has none */
   struct rt_transports *transports; /* transport.c; NULL: the model has none */

@@ -69,6 +69,7 @@ rt_status rt_begin(rt_session *s) {
   if (!status) status = rt_follow_undetermined(s);
   if (!status) status = rt_check_point(s, true);
   if (!status) status = s->method->begin(s, s->memory);
+  rt_branch_start(s);
   rt_record_begin(s);
   return status ? status : rt_record_step(s);
 }
@@ -121,6 +122,7 @@ rt_status rt_advance(rt_session *s) {
   if (!status) status = move_on(s);
   if (!status) status = rt_find_state_event(s);
   if (!status) status = rt_tangent_follow(s);
+  if (!status && (status = rt_branch_follow(s)) && s->branches.ended) (void)rt_record_step(s); /* up to there */
   if (!status) status = rt_delays_follow(s);
   if (!status) status = rt_transports_follow(s);
   if (!status) status = rt_check_asserts(s);
@@ -128,7 +130,9 @@ rt_status rt_advance(rt_session *s) {
   if (status) return status;
   s->pending |= rt_clock_due(s);
   if (!s->pending) s->resume = s->t < s->t_end;
-  return rt_record_step(s);
+  if ((status = rt_record_step(s))) return status;
+  rt_branch_begin(s);
+  return RT_OK;
 }
 
 /* What is pending happens. */
@@ -137,6 +141,7 @@ rt_status rt_happen(rt_session *s) {
   rt_status status = rt_event(s);
   rt_delays_event(s);
   rt_transports_event(s);
+  if (s->pending != RT_PENDING_BRANCH) rt_branch_begin(s); /* else the equations are the same */
   s->pending = 0;
   return status ? status : rt_check_point(s, true);
 }

@@ -30,6 +30,8 @@ class Data(Structure):
         ("carried", c_void_p),
         ("brief", c_int),
         ("shift", c_double),
+        ("contraction_ratio", c_double),
+        *((f"contraction_{name}", c_int) for name in ("equation", "only")),
     ]
 
 

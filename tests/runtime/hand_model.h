@@ -166,6 +166,8 @@ template <class M> struct Generated {
                                      nullptr,
                                      nullptr,
                                      0,
+                                     nullptr,
+                                     0,
                                      nullptr};
     return &d;
   }

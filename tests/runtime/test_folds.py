@@ -1,5 +1,5 @@
-"""Folds of an algebraic unknown: sensitivities over one are none, and a flag says so. A steep change is no fold, nor is
-what only rounds differently in the two forms of a model."""
+"""A run follows one solution of its nonlinear equations, and ends where that ends: at a fold. No fold is a steep
+change, a jump or a corner of the equations, nor what only rounds differently in the two forms of a model."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ import pytest
 from lacuna import runtime
 from tests.events.models import compiled
 
-FOLD = """model Fold "z follows the lower branch until x = 2, at time 5/p, and jumps from -1 to 2"
+SOLVERS = {"ida": {}, "dopri5": {}, "rodas4": {}, "rk4": {"step": 0.01}, "euler": {"step": 0.01}}
+FOLD = """model Fold "z follows the lower branch until x = 2, at time 5/p, and ends there, at -1"
   parameter Real p = 1;
   Real x(start=-3, fixed=true), y(start=0, fixed=true), z(start=-2.1);
 equation
@@ -19,6 +20,16 @@ equation
   der(y) = z;
   z^3 - 3*z = x;
 end Fold;
+"""
+TRIGGER = """model Trigger "A limited amplifier with feedback: its branch ends at a corner of the equations"
+  parameter Real p = 1, limit = 10;
+  Real phase(start=0, fixed=true), s(start=0, fixed=true), y(start=limit), e;
+equation
+  der(phase) = p;
+  der(s) = y;
+  e = 0.2*y - 5*sin(phase);
+  y = noEvent(if 1e4*e > limit then limit elseif 1e4*e < -limit then -limit else 1e4*e);
+end Trigger;
 """
 STEEP = """model Steep "z goes from -2 to 2 within a fiftieth of a second, and bends as sharply"
   parameter Real p = 1;
@@ -31,18 +42,91 @@ end Steep;
 """
 
 
-@pytest.mark.parametrize("solver", ["dopri5", "ida"])
-def test_a_fold_ends_them(tmp_path: Path, solver: str) -> None:
-    model = compiled(tmp_path, FOLD, sensitivities=True)
-    for rtol in (1e-5, 1e-8):
+ALGEBRAIC = """model Algebraic "No state: y ends where 3 y^2 = 1, at time 0.8 + 2/sqrt(27)"
+  parameter Real size = 1;
+  Real y(start=-1.3*size, nominal=size);
+equation
+  (y/size)^3 - y/size = time - 0.8;
+end Algebraic;
+"""
+THROUGH_ANOTHER = """model ThroughAnother "The first of two blocks ends; the second, which follows it, is regular"
+  Real x(start=0, fixed=true), a(start=-1.3), b(start=-1);
+equation
+  der(x) = b;
+  b + 0.1*b^3 = a*(1 + 0.1*a^2);
+  a^3 - a = time - 0.8;
+end ThroughAnother;
+"""
+TO_AND_FRO = """model ToAndFro "By the end of a step that takes all periods at once y has come back to where it was"
+  Real y(start=-0.1);
+equation
+  y^3 - y = 0.8*sin(6.283185307179586*time);
+end ToAndFro;
+"""
+GOES_ON = """model GoesOn "Jacobians vanish where the solution goes on, equations jump, and s is only steep"
+  Real x(start=-1, fixed=true), q(start=-1), c(start=-1), d, e(start=-1), j(start=-1), s(start=-2.1);
+equation
+  der(x) = 1;
+  q*noEvent(abs(q)) = x;
+  c^3 = x;
+  (10*sin(30*time) - d)/100 = 1e-12*(exp(d/0.026) - 1);
+  e + 0.1*e^3 = noEvent(if x > 0 then 1 else -1);
+  j + 0.1*j^3 = if x > 0.5 then 1 else -1;
+  s^3 + s = 10*tanh(1e5*(x - 0.3));
+end GoesOn;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6, 1e-9])
+def test_a_run_ends_at_a_fold(tmp_path: Path, solver: str, rtol: float) -> None:
+    end = 0.8 + 2 / np.sqrt(27)
+    cases = [(FOLD, 5.0, "z", {}), (ALGEBRAIC, end, "y", {}), (ALGEBRAIC, end, "y", {"size": 1e-9})]
+    cases += [(THROUGH_ANOTHER, end, "a", {}), (TO_AND_FRO, np.arcsin(2 / np.sqrt(27) / 0.8) / 2 / np.pi, "y", {})]
+    for text, at, unknown, parameters in cases:
+        model = compiled(tmp_path, text)
         result = runtime.simulate(
-            model, solver=solver, rtol=rtol, stop=7.0, interval=0.5, outputs=["y"], sensitivities=["p"]
+            model, solver=solver, rtol=rtol, stop=7.0, interval=0.02, parameters=parameters, **SOLVERS[solver]
         )
-        assert result.complete, result.failure
-        assert [(f.kind, f.time) for f in result.flags] == [("fold", pytest.approx(5, abs=1e-2))]
-        found = result.sensitivity("y", "p")
-        assert np.isnan(found[result.time > 5.1]).all()
-        assert np.isfinite(found[result.time < 4.9]).all()
+        assert result.failure is not None
+        assert result.failure.status == "singular"
+        assert result.failure.time == pytest.approx(at, rel=0.1 * rtol + 1e-8)
+        assert f"the Jacobian of the block of {unknown} is singular" in str(result.failure)
+        assert result.time[-1] == pytest.approx(at, abs=0.02), "rows up to there are kept"
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6, 1e-9])
+def test_what_goes_on_does_not(tmp_path: Path, solver: str, rtol: float) -> None:
+    model = compiled(tmp_path, GOES_ON)
+    result = runtime.simulate(model, solver=solver, rtol=rtol, stop=2.0, interval=0.013, **SOLVERS[solver])
+    assert result.complete, result.failure
+    x = result["x"]
+    assert result["q"] == pytest.approx(np.sign(x) * np.sqrt(np.abs(x)), abs=1e-4)
+    assert result["c"] == pytest.approx(np.cbrt(x), abs=1e-4)
+    assert result["s"] ** 3 + result["s"] == pytest.approx(10 * np.tanh(1e5 * (x - 0.3)), abs=1e-6)
+
+
+@pytest.mark.parametrize("solver", ["dopri5", "ida"])
+def test_sensitivities_hold_up_to_a_fold(tmp_path: Path, solver: str) -> None:
+    model = compiled(tmp_path, FOLD, sensitivities=True)
+    result = runtime.simulate(model, solver=solver, stop=7.0, interval=0.5, outputs=["y"], sensitivities=["p"])
+    assert result.failure is not None
+    assert result.failure.time == pytest.approx(5, abs=1e-5)
+    assert result.flags == []
+    assert np.isfinite(result.sensitivity("y", "p")).all()
+
+
+@pytest.mark.parametrize("solver", ["dopri5", "ida"])
+def test_a_jump_at_a_corner_ends_sensitivities_only(tmp_path: Path, solver: str) -> None:
+    """y switches where 5 sin(phase) = 2 - 1e-3; the instant moves with p, and no guard tells how."""
+    model = compiled(tmp_path, TRIGGER, sensitivities=True)
+    result = runtime.simulate(model, solver=solver, stop=2.0, interval=0.1, outputs=["s"], sensitivities=["p"])
+    assert result.complete, result.failure
+    at = np.arcsin((2 - 1e-3) / 5)
+    assert [(f.kind, f.time) for f in result.flags] == [("fold", pytest.approx(at, abs=1e-2))]
+    assert np.isnan(result.sensitivity("s", "p")[result.time > at + 0.1]).all()
+    assert result["s"][-1] == pytest.approx(10 * at - 10 * (2 - at), rel=1e-3)
 
 
 @pytest.mark.parametrize("solver", ["dopri5", "ida"])

@@ -13,7 +13,7 @@ from lacuna.codegen.emit.callbacks.equations import EquationTable
 from lacuna.codegen.emit.text.c_text import SourceNames, c_string
 from lacuna.codegen.emit.text.expression import number
 from lacuna.codegen.errors import Span
-from lacuna.codegen.structure.causal import of_nonlinear
+from lacuna.codegen.structure.causal import NonlinearBlock, of_nonlinear
 from lacuna.codegen.structure.system import DeclaredValues, System
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.symbolic.leaves import leaves
@@ -129,6 +129,17 @@ class Tables:
     def z_branches(self) -> list[str]:
         several = of_nonlinear(self._p.explicit)
         return [str(int(z in several)) for z in self._p.residual.tears]
+
+    def branches(self) -> list[str]:
+        """The unknowns of nonlinear blocks that their solver starts from."""
+        blocks = [step for step in self._p.explicit if isinstance(step, NonlinearBlock)]
+        starts = [(u, self._equations.index(b.residuals[0].source)) for b in blocks for u in b.tears]
+        return [f"{{{self._kept(u)}, {equation}}}" for u, equation in starts]
+
+    def _kept(self, unknown: Expr) -> str:
+        derivative = unknown.op == "der"
+        slot = self._p.storage.slot(str((unknown.args[0] if derivative else unknown).value))
+        return f"MDL_{'DERIVATIVE' if derivative else _STORAGE[slot.array]}, {slot.index}"
 
     def lasting(self) -> list[str]:
         """What has a derivative and is no state, where an equation that was differentiated switches at events, but

@@ -11,20 +11,24 @@ is no root, a limited gain throws each step to the other limit, the Jacobian is 
   Introduction to Numerical Continuation Methods, 2003), with steps of s that halve where Newton's method does not
   follow and double where it does. Where that does not leave the start (a Jacobian that is singular or not finite
   there), both ways are tried from starts moved by the sizes of the unknowns, up and down.
+
+How each step compares with the one before is kept for the runtime, which sees to it that a run follows one root
+(runtime/src/fold.c).
 """
 
 NEWTON = """\
 enum { MDL_DAMPED, MDL_SEARCH, MDL_BRACKET, MDL_FOLLOW, MDL_SOLVED, MDL_FAILED };
 enum { MDL_ITERATIONS = 50, MDL_CORRECTIONS = 10, MDL_HALVINGS = 12, MDL_DOUBLINGS = 100, MDL_LOOKS = 1000 };
 
-/* A nonlinear block of n unknowns x. `work` holds 4 n numbers: the start, the last step, the residual at the start and
- * the last point of the path that is followed. */
+/* A nonlinear block of n unknowns x. `work` holds 4 n numbers: the start, the last step, the weights of the residuals
+ * or, where a path is followed, the residual at the start, and the last point of the path. */
 typedef struct {
   int n;
   double *x, *work;
   const double *nominal; /* sizes of the unknowns */
   int phase, iterations, halvings, looks, moved, singular;
   double norm;
+  double last, ratio; /* size of Newton's last step, and the largest of a step to the one before */
   double low, high, low_r, high_r, length; /* one unknown: what has been searched, or the bracket; residuals there */
   double path, reached, stride;            /* several: s, the last s that was reached, the step */
 } mdl_newton;
@@ -40,8 +44,24 @@ static int mdl_newton_is_small(const mdl_newton *s, const double *step) {
   return 1;
 }
 
+/* Compare an undamped step from the start values with the one before. */
+static void mdl_newton_compare(mdl_newton *s, const double *step, int small) {
+  double size = 0.0;
+  for (int i = 0; i < s->n; ++i) size = fmax(size, fabs(step[i]) / s->nominal[i]);
+  if (!small && s->last > 0.0 && size > s->ratio * s->last) s->ratio = size / s->last;
+  s->last = size;
+}
+
+/* For the runtime: the first block, since it asked, whose steps do not shrink, or the one that comes nearest to it. */
+static void mdl_newton_tell(mdl_data *m, const mdl_newton *s, int equation) {
+  mdl_contraction *c = &m->contraction;
+  if (c->only ? c->only != 1 + equation : c->ratio > MDL_CONTRACTS || !(s->ratio > c->ratio)) return;
+  *c = (mdl_contraction){s->ratio, equation, c->only};
+}
+
 /* Begin at the start values, one way or the other. */
 static void mdl_newton_begin(mdl_newton *s, int phase) {
+  s->ratio = INFINITY;
   mdl_newton_place(s, s->work);
   s->phase = phase;
   s->iterations = s->halvings = 0;
@@ -113,10 +133,27 @@ static void mdl_newton_follow(mdl_newton *s, int arrived) {
   s->path = s->reached + s->stride < 1.0 ? s->reached + s->stride : 1.0;
 }
 
+/* Several unknowns: weigh residuals r by what they change by where the unknowns change by their sizes, by the matrix a.
+ * That a step is too long is then told in the unknowns, as by the natural monotonicity test (P. Deuflhard, Newton
+ * Methods for Nonlinear Problems, 2004, 3.3.1), whatever the units of the equations. */
+static inline void mdl_newton_weigh(mdl_newton *s, const double *a, const double *r) {
+  if (s->phase != MDL_DAMPED) return;
+  s->norm = 0.0;
+  for (int i = 0; i < s->n; ++i) {
+    double size = 0.0;
+    for (int j = 0; j < s->n; ++j) size += fabs(a[i * s->n + j]) * s->nominal[j];
+    const double weight = size > 0.0 && isfinite(size) ? 1.0 / size : 1.0;
+    s->work[2 * s->n + i] = weight;
+    s->norm += weight * r[i] * (weight * r[i]);
+  }
+}
+
 /* The residual r at x. 1: x has been changed, solved or given up, 0: the Jacobian is needed for a step from here. */
 static int mdl_newton_look(mdl_newton *s, double *r) {
+  const double *const weights = s->work + 2 * s->n;
+  const int weighed = s->phase == MDL_DAMPED && weights[0] > 0.0;
   double norm = 0.0;
-  for (int i = 0; i < s->n; ++i) norm += r[i] * r[i];
+  for (int i = 0; i < s->n; ++i) norm += weighed ? weights[i] * r[i] * (weights[i] * r[i]) : r[i] * r[i];
   /* Zero is a root even where the Jacobian is singular; but far away from the start it may be an underflow, and so it
    * is behind what has fallen nearly as far. */
   const int fell = s->phase == MDL_DAMPED && s->iterations > 0 && s->norm < 1e-290;
@@ -126,6 +163,7 @@ static int mdl_newton_look(mdl_newton *s, double *r) {
   case MDL_DAMPED:
     if (s->iterations > 0 && !(norm <= s->norm) && s->halvings < MDL_HALVINGS) {
       ++s->halvings;
+      s->ratio = INFINITY;
       for (int i = 0; i < s->n; ++i) s->x[i] += s->work[s->n + i] *= 0.5;
       return 1;
     }
@@ -167,6 +205,7 @@ static void mdl_newton_step(mdl_newton *s, const double *step, int singular) {
     return;
   }
   const int small = mdl_newton_is_small(s, step);
+  if (s->phase == MDL_DAMPED) mdl_newton_compare(s, step, small);
   for (int i = 0; i < s->n; ++i) {
     s->work[s->n + i] = step[i];
     s->x[i] -= step[i];

@@ -166,6 +166,7 @@ class StepWriter:
                 self._assignment(a, declare=False)
             body.line(f"if ({block}.phase == MDL_SOLVED) break;")
             self._look(step, block)
+        body.line(f"mdl_newton_tell(m, &{block}, {self._equation_index(step.residuals[0].source)});")
         for a in (*step.tears, *(a.unknown for a in step.assignments)):
             body.define(a)
 
@@ -177,9 +178,13 @@ class StepWriter:
         body.line(f"double {block}_r[{2 * size}] = {{{residuals}}};")
         body.line(f"const int {block}_looked = mdl_newton_look(&{block}, {block}_r);")
         equation = self._equation_of(step.residuals, f"{block}.singular")
-        body.line(f"if ({block}.phase == MDL_FAILED) return mdl_fail(m, MDL_FAILURE_NEWTON, {equation}, 0.0);")
+        with body.scope(f"if ({block}.phase == MDL_FAILED)", []):
+            body.line(f"mdl_newton_tell(m, &{block}, {self._equation_index(step.residuals[0].source)});")
+            body.line(f"return mdl_fail(m, MDL_FAILURE_NEWTON, {equation}, 0.0);")
         body.line(f"if ({block}_looked) continue;")
         matrix = ", ".join(body.value(j) for line in step.jacobian for j in line)
         body.line(f"double {block}_a[{size * size}] = {{{matrix}}};")
+        if size > 1:
+            body.line(f"mdl_newton_weigh(&{block}, {block}_a, {block}_r);")
         body.line(f"const int {block}_singular = {solved(size, f'{block}_a', f'{block}_r')};")
         body.line(f"mdl_newton_step(&{block}, {block}_r, {block}_singular);")

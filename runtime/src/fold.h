@@ -1,0 +1,23 @@
+/* Branches of nonlinear blocks (fold.c). */
+#ifndef RT_FOLD_H
+#define RT_FOLD_H
+
+#include <stdbool.h>
+
+#include "lacuna_runtime.h"
+
+typedef struct {
+  double t;                            /* of the last point of the run whose values are known to be one branch, */
+  double *v, *xdot;                    /* [n_v], [n_x] and these values; */
+  double *v_reached, *xdot_reached;    /* those while it is followed, */
+  double *v_tried, *xdot_tried, *size; /* and of a point that is tried; [n_branches] largest values so far */
+  long pieces;                         /* that may still be looked at */
+  bool ended;                          /* by a fold, at the session's present point */
+} rt_branches;
+
+void rt_branch_start(rt_session *s);
+void rt_branch_begin(rt_session *s);
+rt_status rt_branch_row(rt_session *s, double t, double *xdot, double *v);
+rt_status rt_branch_follow(rt_session *s);
+
+#endif
