@@ -45,6 +45,9 @@ def describe(header: Header, variables: FmiVariables, version: str) -> bytes:
     _units(root, variables.all)
     categories = ET.SubElement(root, "LogCategories")
     ET.SubElement(categories, "Category", name="logStatusError", description="why a call failed")
+    ET.SubElement(
+        categories, "Category", name="logStatusWarning", description="an assertion of level warning is violated"
+    )
     experiment = {
         "startTime": _text(header.start),
         "stopTime": _text(header.stop),

@@ -123,6 +123,7 @@ _SIGNATURES = {
     "rt_result_sensitivity": (c_void_p, c_void_p, c_int, c_int),
     "rt_result_margins": (c_void_p, c_void_p),
     "rt_result_flags": (POINTER(CFlag), c_void_p, POINTER(c_size_t)),
+    "rt_result_warnings": (POINTER(c_char_p), c_void_p, POINTER(c_size_t)),
     "rt_result_events": (POINTER(CEvent), c_void_p, POINTER(c_size_t)),
 }
 

@@ -196,6 +196,13 @@ class Result:
         entries = self._lib.rt_result_flags(self._handle, ctypes.byref(count))
         return [self._flag(entries[i]) for i in range(count.value)]
 
+    @cached_property
+    def warnings(self) -> list[str]:
+        """Asserts of level warning that were violated, each with the instant and the values of the first time."""
+        count = ctypes.c_size_t()
+        entries = self._lib.rt_result_warnings(self._handle, ctypes.byref(count))
+        return [entries[i].decode() for i in range(count.value)]
+
     def _flag(self, f) -> Flag:
         named = tuple(self.model.relations[r].text for r in (f.relation, f.other) if r >= 0)
         return Flag(f.time, FLAG_KINDS[f.kind], named)

@@ -104,6 +104,7 @@ class Assert:
     span: Span
     level: str = "error"  # error | warning
     origin: str = ""
+    shown: tuple[str, ...] = ()  # variables in the message
 
 
 @dataclass

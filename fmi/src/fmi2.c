@@ -16,9 +16,10 @@ static fmi2Status status(bool done) {
   return done ? fmi2OK : fmi2Error;
 }
 
-static void say(fmu *f, const char *message) {
+static void say(fmu *f, bool warning, const char *message) {
   fmi2CallbackLogger log = (fmi2CallbackLogger)f->logger;
-  if (log) log(f->environment, f->name ? f->name : "", fmi2Error, "logStatusError", "%s", message);
+  if (log) log(f->environment, f->name ? f->name : "", warning ? fmi2Warning : fmi2Error,
+               warning ? "logStatusWarning" : "logStatusError", "%s", message);
 }
 
 const char *fmi2GetTypesPlatform(void) {

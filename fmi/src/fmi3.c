@@ -10,9 +10,10 @@ static fmi3Status status(bool done) {
   return done ? fmi3OK : fmi3Error;
 }
 
-static void say(fmu *f, const char *message) {
+static void say(fmu *f, bool warning, const char *message) {
   fmi3LogMessageCallback log = (fmi3LogMessageCallback)f->logger;
-  if (log) log(f->environment, fmi3Error, "logStatusError", message);
+  const char *category = warning ? "logStatusWarning" : "logStatusError";
+  if (log) log(f->environment, warning ? fmi3Warning : fmi3Error, category, message);
 }
 
 const char *fmi3GetVersion(void) {

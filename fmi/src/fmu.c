@@ -12,6 +12,7 @@ static bool new_session(fmu *f) {
   if (!s) return fmu_refuse(f, "%s", message);
   s->result = rt_result_new(0, 0, s->d->n_p, 4);
   if (!s->result) return fmu_refuse(f, "out of memory");
+  f->warnings_said = 0;
   s->start = fmu_configuration.start_time;
   s->stop = fmu_configuration.stop_time;
   s->t = s->start;

@@ -51,7 +51,8 @@ typedef struct fmu {
   bool driven;       /* inputs were set since the last event */
   bool logging;
   void *environment;
-  void (*say)(struct fmu *f, const char *message);
+  size_t warnings_said; /* of the session's */
+  void (*say)(struct fmu *f, bool warning, const char *message);
   void (*logger)(void); /* of the importer, as its version of the interface has it */
   char *name;
 } fmu;

@@ -155,6 +155,8 @@ RT_API const double *rt_result_sensitivity(const rt_result *result, int column, 
 /* [n] how far each may change, to first order, before two events of the run meet. */
 RT_API const double *rt_result_margins(const rt_result *result);
 RT_API const rt_flag *rt_result_flags(const rt_result *result, size_t *count);
+/* Asserts of level warning that were violated, each where it was for the first time. */
+RT_API const char *const *rt_result_warnings(const rt_result *result, size_t *count);
 RT_API const double *rt_result_parameters(const rt_result *result); /* [n_p] values used, dependent ones computed */
 RT_API const rt_event_entry *rt_result_events(const rt_result *result, size_t *count);
 

@@ -68,6 +68,7 @@ typedef struct mdl_data {
   unsigned char *rel;  /* [n_rel] relations, frozen between events */
   unsigned char *tick; /* [n_sample] 1 while an event at which this sample() fires is iterated */
   unsigned char *when; /* [n_when] pre-value of each when condition (for its rising edge) */
+  unsigned char *warned; /* [n_asserts] bit 0: a warning is violated; the runtime sets bit 1 when it has been told */
   int initial;         /* initial() */
   int terminal;        /* terminal() */
   int reinitialised;   /* set by event(): reinit changed x */

@@ -126,6 +126,17 @@ static rt_status fail_assert(rt_session *s, double time, const mdl_assert *rule)
   return RT_ASSERT;
 }
 
+/* Warnings that are violated for the first time in the run. */
+void rt_tell_warnings(rt_session *s) {
+  for (int k = 0; k < s->d->n_asserts; k++) {
+    if (s->data.warned[k] != 1) continue;
+    s->data.warned[k] |= 2;
+    (void)fail_assert(s, s->t, &s->d->asserts[k]);
+    rt_result_warn(s->result, s->failure.message);
+    s->failure = (rt_failure){0};
+  }
+}
+
 /* A call that does not end, told at its function. */
 static rt_status fail_endless(rt_session *s, double time, const char *doing, const mdl_equation *function) {
   mdl_failure_kind kind = s->data.failure.kind;

@@ -36,6 +36,7 @@ static void clear(rt_session *s) {
     s->changed_at[0][r] = s->changed_at[1][r] = s->start;
     s->due_back[r] = s->last_due_back = -INFINITY;
   }
+  memset(s->data.warned, 0, (size_t)d->n_asserts);
   memset(s->g_span, 0, (size_t)d->n_rel * sizeof *s->g_span);
   memset(s->g_travel, 0, (size_t)d->n_rel * sizeof *s->g_travel);
   s->t = s->t_previous = s->t_end = s->last_event = s->start;

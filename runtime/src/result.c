@@ -1,5 +1,6 @@
 /* Results: one array for each column, grown by doubling; the event log; counters. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "session.h"
 
@@ -27,6 +28,9 @@ void rt_result_free(rt_result *r) {
   free(r->parameters);
   free(r->margins);
   free(r->flags);
+  for (size_t k = 0; k < r->n_warnings; k++)
+    free(r->warnings[k]);
+  free(r->warnings);
   free(r);
 }
 
@@ -72,6 +76,19 @@ void rt_result_flag(rt_result *r, double time, rt_flag_kind kind, int relation, 
   r->flags[r->n_flags++] = (rt_flag){.time = time, .kind = kind, .relation = relation, .other = other};
 }
 
+/* A copy of the message. */
+void rt_result_warn(rt_result *r, const char *message) {
+  size_t size = strlen(message) + 1;
+  char *copy = malloc(size);
+  if (!copy || !grow(&r->warnings, (r->n_warnings + 1) * sizeof *r->warnings)) {
+    free(copy);
+    r->lost = true;
+    return;
+  }
+  memcpy(copy, message, size);
+  r->warnings[r->n_warnings++] = copy;
+}
+
 const rt_failure *rt_result_failure(const rt_result *r) {
   return &r->failure;
 }
@@ -105,6 +122,11 @@ const double *rt_result_margins(const rt_result *r) {
 const rt_flag *rt_result_flags(const rt_result *r, size_t *count) {
   *count = r->n_flags;
   return r->flags;
+}
+
+const char *const *rt_result_warnings(const rt_result *r, size_t *count) {
+  *count = r->n_warnings;
+  return (const char *const *)r->warnings;
 }
 
 const double *rt_result_parameters(const rt_result *r) {

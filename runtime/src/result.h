@@ -24,11 +24,14 @@ struct rt_result {
   double *margins;     /* [n_sensitivities] */
   size_t n_flags, flags_capacity;
   rt_flag *flags;
-  bool lost; /* an event or a flag that there was no memory for */
+  size_t n_warnings;
+  char **warnings;
+  bool lost; /* an event, a flag or a warning that there was no memory for */
 };
 rt_result *rt_result_new(int columns, int sensitivities, int parameters, size_t capacity);
 bool rt_result_reserve(rt_result *r, size_t rows);
 void rt_result_log(rt_result *r, double time, int kind, int index, int direction, double reach);
+void rt_result_warn(rt_result *r, const char *message);
 void rt_result_flag(rt_result *r, double time, rt_flag_kind kind, int relation, int other);
 
 #define RT_MOST_VALUES 5e8 /* that a result may hold: 4 GiB */

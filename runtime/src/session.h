@@ -10,6 +10,7 @@
 #include "dense.h"
 #include "fold.h"
 #include "lacuna_runtime.h"
+#include "linear.h"
 #include "patience.h"
 #include "result.h"
 
@@ -231,6 +232,7 @@ bool rt_blame(rt_session *s, mdl_storage storage, const double *xdot, const doub
 rt_status rt_fail(rt_session *s, rt_status status, double time, int variable, const mdl_equation *where,
                   const char *format, ...) __attribute__((format(printf, 6, 7)));
 rt_status rt_fail_model(rt_session *s, double time, const char *doing);
+void rt_tell_warnings(rt_session *s);
 rt_status rt_fail_bound(rt_session *s, double time, int variable, double value, double min, double max);
 rt_status rt_fail_collapse(rt_session *s, double h, const char *why);
 void rt_append_equation(rt_session *s, int equation);
@@ -292,10 +294,5 @@ rt_status rt_initialise(rt_session *s);
 /* record.c */
 void rt_record_begin(rt_session *s);
 rt_status rt_record_end(rt_session *s), rt_record_step(rt_session *s), rt_record_event_row(rt_session *s);
-
-/* linear.c: factors of rows; dense n x n systems by LU with partial pivoting, column-major */
-void rt_row_factors(const rt_session *s, const double *values, double *row);
-int rt_lu_factor(int n, double *a, int *pivot);
-void rt_lu_solve(int n, const double *a, const int *pivot, double *b);
 
 #endif

@@ -15,8 +15,10 @@ static const double look_every = 0.1; /* s of wall time: has the caller lost int
 
 rt_status rt_check_asserts(rt_session *s) {
   mdl_data *m = &s->data;
-  if (!s->d->n_asserts || !s->d->check(m, s->t, m->x, m->xdot, m->v)) return RT_OK;
-  return rt_fail_model(s, s->t, "checking");
+  if (!s->d->n_asserts) return RT_OK;
+  if (s->d->check(m, s->t, m->x, m->xdot, m->v)) return rt_fail_model(s, s->t, "checking");
+  rt_tell_warnings(s);
+  return RT_OK;
 }
 
 /* Settings that would keep a run from ever getting anywhere. */
@@ -141,6 +143,7 @@ rt_status rt_happen(rt_session *s) {
   rt_status status = rt_event(s);
   rt_delays_event(s);
   rt_transports_event(s);
+  if (!status) rt_tell_warnings(s);
   if (s->pending != RT_PENDING_BRANCH) rt_branch_begin(s); /* else the equations are the same */
   s->pending = 0;
   return status ? status : rt_check_point(s, true);

@@ -20,7 +20,7 @@ class Failure(Structure):
 class Data(Structure):
     _fields_ = [
         *((name, _DOUBLES) for name in ("p", "u", "x", "xdot", "v", "d", "pre_d")),
-        *((name, POINTER(c_ubyte)) for name in ("rel", "tick", "when")),
+        *((name, POINTER(c_ubyte)) for name in ("rel", "tick", "when", "warned")),
         *((name, c_int) for name in ("initial", "terminal", "reinitialised", "terminated")),
         ("failure", Failure),
         *((name, c_double) for name in ("start_time", "homotopy")),
@@ -89,7 +89,7 @@ class Generated:
         for key, size in sizes.items():
             self.arrays[key] = np.zeros(size + 1)
             setattr(self.data, key, self.arrays[key].ctypes.data_as(_DOUBLES))
-        for key, size in {"rel": d.n_rel, "tick": d.n_sample, "when": d.n_when}.items():
+        for key, size in {"rel": d.n_rel, "tick": d.n_sample, "when": d.n_when, "warned": d.n_asserts}.items():
             self.arrays[key] = np.zeros(size + 1, dtype=np.uint8)
             setattr(self.data, key, self.arrays[key].ctypes.data_as(POINTER(c_ubyte)))
         self.arrays["p"][: d.n_p] = np.ctypeslib.as_array(d.p_start, (d.n_p,)) if d.n_p else []

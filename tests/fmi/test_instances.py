@@ -223,6 +223,22 @@ def test_a_reason_reaches_an_importer_that_has_reused_the_struct_of_its_function
     assert logger and len(said) == 1
 
 
+def test_a_violated_assert_of_level_warning_is_logged_once(
+    fmus: Fmus, capfd: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    written = tmp_path / "Warned.mo"
+    written.write_text(
+        "model Warned\n  Real z(start=0, fixed=true);\nequation\n  der(z) = 1;\n"
+        '  assert(z < 0.5, "late", AssertionLevel.warning);\nend Warned;\n'
+    )
+    with fmus.instance(str(written), "cs") as fmu:
+        begin(fmu)
+        for k in range(10):
+            fmu.doStep(0.1 * k, 0.1)
+    captured = capfd.readouterr()
+    assert (captured.out + captured.err).count("Warned.mo:5: assertion violated at time 0.5") == 1
+
+
 def test_what_cannot_be_exported_is_refused(tmp_path: Path) -> None:
     with pytest.raises(Exception, match="IDA belongs to SUNDIALS") as refused:
         lacuna.export_fmu(OWN["Dahlquist"], tmp_path / "x.fmu", solver="ida")

@@ -1,4 +1,8 @@
-"""Asserts of level error: their order in the table, the C of their checks, and the values that a violated one shows."""
+"""Asserts: their order in the table, the C of their checks, and the values that a violated one shows.
+
+One of level warning is noted, once in a run, where it is violated at a point that the run has accepted. Functions are
+evaluated at others too: there only those of level error count.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +16,7 @@ from lacuna.codegen.emit.functions.endless import end_of, may_not_end
 from lacuna.codegen.emit.text.body import Body
 from lacuna.codegen.emit.text.expression import is_doubtful
 from lacuna.codegen.errors import Span
-from lacuna.codegen.symbolic.expr import RELATIONS, Expr, walk
+from lacuna.codegen.symbolic.expr import FALSE, RELATIONS, Expr, walk
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import all_statements
 
@@ -21,9 +25,9 @@ def all_asserts(p: Prepared) -> list[flat.Assert]:
     """Asserts in the order of the descriptor: those of the model, of its when clauses, of its functions, and that calls
     of these end."""
     functions = p.model.functions
-    inside = _inside([f.body for f in functions.values()])
+    inside = [a for a in _inside([f.body for f in functions.values()]) if a.level == "error"]
     ends = [end_of(f) for f in functions.values() if may_not_end(f, functions)]
-    return [*_errors(p.model.asserts), *_event_asserts(p), *inside, *ends]
+    return [*_told(p.model.asserts), *_told(_event_asserts(p)), *inside, *ends]
 
 
 def assert_rows(p: Prepared) -> Callable[[flat.Assert], int]:
@@ -36,16 +40,20 @@ def assert_rows(p: Prepared) -> Callable[[flat.Assert], int]:
 
 def of_parameters(p: Prepared) -> list[tuple[int, flat.Assert]]:
     """(row, assert) of those of the model that depend on parameters alone: they are checked before anything else."""
-    return [(k, a) for k, a in enumerate(_errors(p.model.asserts)) if _is_of_parameters(p.storage, a.condition)]
+    return [(k, a) for k, a in enumerate(_told(p.model.asserts)) if _is_of_parameters(p.storage, a.condition)]
 
 
 def of_the_run(p: Prepared) -> list[tuple[int, flat.Assert]]:
     """(row, assert) of those of the model that depend on what changes."""
     early = {k for k, _ in of_parameters(p)}
-    return [(k, a) for k, a in enumerate(_errors(p.model.asserts)) if k not in early]
+    return [(k, a) for k, a in enumerate(_told(p.model.asserts)) if k not in early]
 
 
-def write_assert(body: Body, condition: Expr, row: int) -> None:
+def write_assert(body: Body, check: flat.Assert, row: int) -> None:
+    condition = check.condition
+    if check.level == "warning":
+        body.line(warned(body.value(condition), row))
+        return
     body.line(f"if (!({body.value(condition)})) {{")
     noted = any(n.op in RELATIONS and is_doubtful(n) for n in walk(condition))
     only = "if (m->failure.kind == MDL_FAILURE_NONE) " if noted else ""
@@ -54,21 +62,29 @@ def write_assert(body: Body, condition: Expr, row: int) -> None:
     body.line("}")
 
 
+def warned(condition: str, row: int | str) -> str:
+    return f"if (!({condition})) m->warned[{row}] |= 1;"
+
+
 def shown_values(p: Prepared) -> list[list[str]]:
-    """Of each assert in the table, the variables whose values explain a violation, in the order of its condition.
+    """Of each assert in the table, the variables whose values explain a violation, in the order of its condition and its message.
 
     In a when clause a discrete variable may be about to change: what is stored is not what was compared, and it is left
     out. The variables of a function have no place in the table.
     """
-    conditions = [a.condition for a in _errors(p.declared.asserts)]
-    values = [_variables(c) for c in conditions]
-    for a in _event_asserts(p):
-        values.append([n for n in _variables(a.condition) if (slot := p.storage.slot(n)) and slot.array != "d"])
+    values = [_variables(a) for a in _told(p.declared.asserts)]
+    for a in _told(_event_asserts(p)):
+        values.append([n for n in _variables(a) if (slot := p.storage.slot(n)) and slot.array != "d"])
     return values + [[] for _ in range(len(all_asserts(p)) - len(values))]
 
 
-def _errors(asserts: list[flat.Assert]) -> list[flat.Assert]:
-    return [a for a in asserts if a.level == "error"]
+def is_told(check: flat.Assert) -> bool:
+    """False for what stands for the call of a function that prints."""
+    return check.level == "error" or check.condition is not FALSE
+
+
+def _told(asserts: list[flat.Assert]) -> list[flat.Assert]:
+    return [a for a in asserts if is_told(a)]
 
 
 def _event_asserts(p: Prepared) -> list[flat.Assert]:
@@ -77,7 +93,7 @@ def _event_asserts(p: Prepared) -> list[flat.Assert]:
 
 
 def _inside(bodies: list[list[flat.Statement]]) -> list[flat.Assert]:
-    return _errors([s for body in bodies for s in all_statements(body) if isinstance(s, flat.Assert)])
+    return [s for body in bodies for s in all_statements(body) if isinstance(s, flat.Assert)]
 
 
 def _is_of_parameters(storage: Storage, condition: Expr) -> bool:
@@ -85,6 +101,7 @@ def _is_of_parameters(storage: Storage, condition: Expr) -> bool:
     return all(slot is not None and slot.array == "p" for slot in slots)
 
 
-def _variables(condition: Expr) -> list[str]:
-    found = leaves(condition)
-    return list(dict.fromkeys(str(n.value) for n in walk(condition) if n.op == "var" and n in found))
+def _variables(check: flat.Assert) -> list[str]:
+    found = leaves(check.condition)
+    compared = [str(n.value) for n in walk(check.condition) if n.op == "var" and n in found]
+    return list(dict.fromkeys([*compared, *check.shown]))

@@ -193,5 +193,5 @@ class Continuous:
         body.plan(a.condition for _, a in asserts)
         for row, a in asserts:
             body.line(f"/* {place(a.span)}  assert */")
-            write_assert(body, a.condition, row)
+            write_assert(body, a, row)
         return function(CHECK, body)

@@ -8,7 +8,7 @@ from lacuna.codegen import flat
 from lacuna.codegen.dae.discrete.events import DiscreteEquation, targets
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.relations import Relation
-from lacuna.codegen.emit.callbacks.asserts import assert_rows, of_parameters, write_assert
+from lacuna.codegen.emit.callbacks.asserts import assert_rows, is_told, of_parameters, write_assert
 from lacuna.codegen.emit.callbacks.continuous import function
 from lacuna.codegen.emit.functions.endless import ROUNDS
 from lacuna.codegen.emit.text.body import Body
@@ -115,9 +115,8 @@ class Discrete:
                 raise Diagnostic("C003", f"{type(s).__name__.lower()} is not supported in an event section", s.span)
 
     def _assert(self, s: flat.Assert) -> None:
-        if s.level != "error":
-            return
-        write_assert(self._body, s.condition, self._row_of(s))
+        if is_told(s):
+            write_assert(self._body, s, self._row_of(s))
 
     def _branches(self, branches: Sequence[tuple[str, Sequence[flat.Statement]]]) -> None:
         """if (c1) {...} else if (c2) {...} ..."""
@@ -200,7 +199,7 @@ class Discrete:
             self._bounds(body, model.variables[name])
         for row, a in of_parameters(self._p):
             body.line(f"/* {place(a.span)}  assert */")
-            write_assert(body, a.condition, row)
+            write_assert(body, a, row)
         return function(PARAMETERS, body)
 
     def _bounds(self, body: Body, v: flat.Variable) -> None:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 from lacuna.codegen import flat
 from lacuna.codegen.dae.prepared import Prepared
-from lacuna.codegen.emit.callbacks.asserts import of_parameters, of_the_run
+from lacuna.codegen.emit.callbacks.asserts import of_parameters, of_the_run, warned
 from lacuna.codegen.emit.callbacks.continuous import (
     CHECK,
     GUARD_RATES,
@@ -45,6 +45,7 @@ _GUESS = (
 )
 _SINGULAR = "return mdl_fail(m, MDL_FAILURE_SINGULAR, #1, 0.0)"
 _BOUND = "if (!({0})) { m->failure = (mdl_failure){MDL_FAILURE_BOUND, -1, #0, {1}, {2}}; return -1; }"
+_WARNING = warned("{0}", "#0")
 _ASSERT = "if (!({0})) { (void)mdl_fail(m, MDL_FAILURE_ASSERT, #0, 0.0); return -1; }"
 
 
@@ -186,7 +187,8 @@ class Large:
 
     def _asserts(self, rolled: Rolled, asserts: Iterable[tuple[int, flat.Assert]]) -> None:
         for row, a in asserts:
-            rolled.add(Statement(_ASSERT, (a.condition,), (row,), comment=f"/* {place(a.span)}  assert */"))
+            text = _WARNING if a.level == "warning" else _ASSERT
+            rolled.add(Statement(text, (a.condition,), (row,), comment=f"/* {place(a.span)}  assert */"))
 
     def starts(self) -> str | None:
         model, storage = self._p.model, self._storage

@@ -13,7 +13,7 @@ from lacuna.codegen.flatten.expressions.enumerations import enumeration_of
 from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import ChosenText
-from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, TRUE, walk
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, TRUE, Expr, walk
 from lacuna.codegen.syntax import ast
 
 
@@ -25,18 +25,20 @@ def lower_assert(call: ast.Call, scope: Scope) -> flat.Assert:
     condition = lower_scalar(arguments["condition"], scope, BOOLEAN)
     level = _level(arguments["level"], scope) if "level" in arguments else "error"
     message: str | None = ""
+    varying: list[Expr] = []
     if condition is not TRUE or isinstance(arguments["message"], ast.Literal):  # else nobody reads it (8.3.7)
-        message = lower_message(arguments["message"], scope)
+        message = lower_message(arguments["message"], scope, varying)
     if message is None:
         hint = 'assert(x > 0, "text", AssertionLevel.warning)'
         raise Diagnostic("R020", "the message of assert is not a String", call.span, hint)
-    return flat.Assert(condition, message, call.span, level, origin_of(scope))
+    shown = [str(n.value) for e in varying for n in walk(e) if n.op == "var"]
+    return flat.Assert(condition, message, call.span, level, origin_of(scope), tuple(dict.fromkeys(shown)))
 
 
-def lower_message(written: ast.Expression, scope: Scope) -> str | None:
+def lower_message(written: ast.Expression, scope: Scope, varying: list[Expr]) -> str | None:
     """The text of an assert or a terminate: variables in it by their names, all texts that it may be. None where it is
-    no String."""
-    message = lower(written, replace(scope, message=True, conditional=True))
+    no String. What varies in it is added to `varying`."""
+    message = lower(written, replace(scope, message=varying, conditional=True))
     if isinstance(message, ChosenText):
         return " or ".join(dict.fromkeys(text for _, text in message.alternatives))
     return message if isinstance(message, str) else None

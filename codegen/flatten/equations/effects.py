@@ -23,7 +23,7 @@ def effect(item: ast.Procedure, scope: Scope) -> list[flat.Assert]:
     if str(call.function) in scope.context.lowering.functions or str(call.function) in ("reinit", "terminate"):
         hint = "assert, reinit, terminate and functions can stand alone; reinit and terminate under a when"
         raise Diagnostic("R056", f"a call of {call.function} is no statement here", item.span, hint)
-    inner = replace(scope, message=True)
+    inner = replace(scope, message=[])
     cls = find_class(scope.context.library, scope.cls, call.function)
     if cls is not None and cls.external is not None and cls.external.function == _PRINT and call.args:
         message = str(lower(call.args[0], inner))

@@ -131,7 +131,7 @@ def procedure(item: ast.Procedure, scope: Scope) -> list[flat.Statement]:
     if name == "assert":
         return [lower_assert(call, scope)]
     if name == "terminate":
-        message = lower_message(call.args[0], scope) if len(call.args) == 1 else None
+        message = lower_message(call.args[0], scope, []) if len(call.args) == 1 else None
         if message is None:
             raise Diagnostic("R050", "terminate takes one message", item.span, 'terminate("why")')
         return [flat.Terminate(message, item.span)]

@@ -35,7 +35,8 @@ def text_of(e: ast.Call, scope: Scope) -> Value:
             return text
     if not isinstance(value, Expr):
         raise Diagnostic("R020", "String of what is no scalar", e.span, "use one element of it")
-    if scope.message and value.op != "const":
+    if scope.message is not None and value.op != "const":
+        scope.message.append(value)
         return str(value)
     kind = enumeration_of(value, scope.context)
     value = settled(value, scope.context)

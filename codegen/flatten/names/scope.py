@@ -28,7 +28,7 @@ class Scope:
     in_function: bool = False
     initial: bool = False  # in an initial section
     conditional: bool = False  # under a condition not known yet: what cannot be computed may never be asked for
-    message: bool = False  # in the text of an assert
+    message: list[Expr] | None = None  # in the text of an assert: what varies in it
     pure: bool = False  # where no impure function may be called: lasting equations, functions that are not impure
 
     def with_locals(self, **values: Value) -> Scope:

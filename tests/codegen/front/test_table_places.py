@@ -8,6 +8,7 @@ import pytest
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten import flatten
+from lacuna.codegen.flatten.functions.library.tables.files import FileError, read_matrix
 from lacuna.codegen.library.classes import Library
 
 MODEL = """model M
@@ -26,3 +27,12 @@ def test_a_table_that_is_refused_names_its_component(tmp_path: Path, shared: Pat
     with pytest.raises(Diagnostic, match="does not come after") as refused:
         flatten(Library([str(library)]), str(path))
     assert any(span.file == str(path) and span.line == 2 and "tab" in said for span, said in refused.value.notes)
+
+
+@pytest.mark.parametrize("rows", ["0 0\n1 1", "0 0\n1 1\n2 4\n3 9", "0,0 0,0\n1,0 1,0\n2,0 4,0"])
+def test_a_table_of_another_size_than_its_head_says_is_refused(tmp_path: Path, rows: str) -> None:
+    path = tmp_path / "tables.txt"
+    path.write_text(f"#1\ndouble other(1,2)\n7 8\ndouble tab(3,2)\n{rows}\ndouble next(1,1)\n9\n", encoding="utf-8")
+    with pytest.raises(FileError, match=r"tab has \d+ numbers, its head says 3x2"):
+        read_matrix(path, "tab")
+    assert read_matrix(path, "other") == [[7, 8]]

@@ -26,6 +26,8 @@ def read_matrix(path: Path, name: str, delimiter: str = ",", header_lines: int =
     else:
         text = path.read_bytes().decode("utf-8-sig", errors="strict")
         rows = _csv(text, delimiter, header_lines) if suffix == ".csv" else _text(text, name)
+    if not rows or not rows[0]:
+        raise FileError(f"the table {name} is empty")
     for row in rows:
         for value in row:
             if not math.isfinite(value):
@@ -55,12 +57,12 @@ def _numbers(lines: list[str], name: str, rows: int, columns: int) -> list[list[
         raise FileError(f"the table {name} has the size {rows}x{columns}")
     values: list[float] = []
     for line in lines:
-        if len(values) >= wanted:
+        if _HEAD.match(line):
             break
         for word in _SEPARATORS.split(line.split("#", 1)[0].strip()):
             if word:
                 values.append(_number(word, name))
-    if len(values) < wanted:
+    if len(values) != wanted:
         raise FileError(f"the table {name} has {len(values)} numbers, its head says {rows}x{columns}")
     return [values[k * columns : (k + 1) * columns] for k in range(rows)]
 
