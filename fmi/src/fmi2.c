@@ -18,8 +18,9 @@ static fmi2Status status(bool done) {
 
 static void say(fmu *f, bool warning, const char *message) {
   fmi2CallbackLogger log = (fmi2CallbackLogger)f->logger;
-  if (log) log(f->environment, f->name ? f->name : "", warning ? fmi2Warning : fmi2Error,
-               warning ? "logStatusWarning" : "logStatusError", "%s", message);
+  if (log)
+    log(f->environment, f->name ? f->name : "", warning ? fmi2Warning : fmi2Error,
+        warning ? "logStatusWarning" : "logStatusError", "%s", message);
 }
 
 const char *fmi2GetTypesPlatform(void) {

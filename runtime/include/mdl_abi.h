@@ -58,21 +58,21 @@ typedef struct {
 
 /* All memory of one run of one model; allocated by the runtime from the counts of the descriptor. */
 typedef struct mdl_data {
-  double *p;           /* [n_p] constants and parameters */
-  double *u;           /* [n_u] inputs at the current time; the runtime keeps them up to date */
-  double *x;           /* [n_x] states, and */
-  double *xdot;        /* [n_x] their derivatives, at the last accepted point */
-  double *v;           /* [n_v] all other continuous variables there; also start values of nonlinear blocks */
-  double *d;           /* [n_d] discrete variables */
-  double *pre_d;       /* [n_d] their values before the current event */
-  unsigned char *rel;  /* [n_rel] relations, frozen between events */
-  unsigned char *tick; /* [n_sample] 1 while an event at which this sample() fires is iterated */
-  unsigned char *when; /* [n_when] pre-value of each when condition (for its rising edge) */
+  double *p;             /* [n_p] constants and parameters */
+  double *u;             /* [n_u] inputs at the current time; the runtime keeps them up to date */
+  double *x;             /* [n_x] states, and */
+  double *xdot;          /* [n_x] their derivatives, at the last accepted point */
+  double *v;             /* [n_v] all other continuous variables there; also start values of nonlinear blocks */
+  double *d;             /* [n_d] discrete variables */
+  double *pre_d;         /* [n_d] their values before the current event */
+  unsigned char *rel;    /* [n_rel] relations, frozen between events */
+  unsigned char *tick;   /* [n_sample] 1 while an event at which this sample() fires is iterated */
+  unsigned char *when;   /* [n_when] pre-value of each when condition (for its rising edge) */
   unsigned char *warned; /* [n_asserts] bit 0: a warning is violated; the runtime sets bit 1 when it has been told */
-  int initial;         /* initial() */
-  int terminal;        /* terminal() */
-  int reinitialised;   /* set by event(): reinit changed x */
-  int terminated;      /* set by event(): 1 + index into `messages` of the terminate() that fired; else 0 */
+  int initial;           /* initial() */
+  int terminal;          /* terminal() */
+  int reinitialised;     /* set by event(): reinit changed x */
+  int terminated;        /* set by event(): 1 + index into `messages` of the terminate() that fired; else 0 */
   mdl_failure failure;
   double start_time; /* of the run; parameters may depend on it */
   double homotopy;   /* in initial_system(): 1 what homotopy() actually is, 0 what it is simplified to */

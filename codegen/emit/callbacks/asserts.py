@@ -67,7 +67,8 @@ def warned(condition: str, row: int | str) -> str:
 
 
 def shown_values(p: Prepared) -> list[list[str]]:
-    """Of each assert in the table, the variables whose values explain a violation, in the order of its condition and its message.
+    """Of each assert in the table, the variables whose values explain a violation, in the order of its condition and
+    its message.
 
     In a when clause a discrete variable may be about to change: what is stored is not what was compared, and it is left
     out. The variables of a function have no place in the table.

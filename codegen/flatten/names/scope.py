@@ -12,6 +12,7 @@ from lacuna.codegen.flatten.names.views import constrain, is_specialised, member
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.library.predefined import PREDEFINED
 from lacuna.codegen.library.search_path import WITHOUT_MODELICA
+from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.syntax import ast
 from lacuna.suggest import did_you_mean
 
