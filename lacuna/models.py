@@ -235,11 +235,7 @@ class Model:
             sensitivities=sensitivities, watch=watching(f"simulating {self.name}", begin, end, progress),
         )  # fmt: skip
         result = Result(run, None if outputs is None else list(outputs), time.perf_counter() - clock)
-        result.warnings += [
-            *run.warnings,
-            *uncovered(inputs or {}, begin, end),
-            *assumed(inputs or {}, model.variables),
-        ]
+        result.warnings += [*uncovered(inputs or {}, begin, end), *assumed(inputs or {}, model.variables)]
         if not result.complete:
             raise IncompleteRun(result)
         (progress or silent)(f"simulating {self.name}", 1.0)

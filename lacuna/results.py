@@ -40,7 +40,7 @@ class Result:
         self._run = run
         self.names: list[str] = [n for n in names if n != "time"] if names is not None else run.model.declared
         self.seconds = seconds  # of computing
-        self.warnings: list[str] = []  # what of the run should be known besides its values
+        self.warnings: list[str] = list(run.warnings)  # what of the run should be known besides its values
 
     @property
     def model(self) -> str:

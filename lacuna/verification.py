@@ -51,7 +51,7 @@ def record_making(command: Sequence[str], written: Sequence[Path]) -> list[str]:
     folder = written[0] if written[0].is_dir() else written[0].parent
     stems = {path.stem for path in written if path.is_file()}
     files = [path for path in _results_in(folder) if not stems or path.name.partition(".")[0] in stems]
-    inputs = {word: _digest(Path(word), folder) for word in command[1:] if Path(word).exists()}
+    inputs = {name: _digest(Path(name), folder) for word in command[1:] if (name := _file_of(word))}
     made = {
         "format": FORMAT, "version": version("lacuna"), "command": list(command), "inputs": inputs,
         "files": sorted(path.relative_to(folder).as_posix() for path in files),
@@ -60,6 +60,13 @@ def record_making(command: Sequence[str], written: Sequence[Path]) -> list[str]:
     large = [word for word, digest in inputs.items() if digest == UNREAD]
     why = f"holds more than {MOST_ENTRIES} files or {LARGEST >> 20} MB, or such as may not be read"
     return [f"warning: {word} {why}: lacuna verify will not see whether it changed" for word in large]
+
+
+def _file_of(word: str) -> str | None:
+    """The file or folder that a word of a command names: itself, or as in NAME=FILE and NAME=FILE:COLUMN."""
+    given = word.partition("=")[2]
+    named = (name for name in (word, given, given.partition(":")[0]) if name and Path(name).exists())
+    return next(named, None)
 
 
 def _results_in(folder: Path) -> list[Path]:

@@ -61,7 +61,7 @@ _FAULT = {
 }  # fmt: skip
 TABLES: dict[str, dict[str, Rule]] = {  # an entry that ends with ? may be left out
     "actuator": {
-        "model": NAME, "test?": TEXT, "parameters?": NAMES, "values?": NUMBERS, "pole_pairs?": POSITIVE,
+        "model": NAME, "test?": TEXT, "parameters?": NAMES, "values?": NUMBERS, "pole_pairs?": COUNT,
         "strongest_angle?": NUMBER,
     },
     "fault": _FAULT,

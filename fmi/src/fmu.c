@@ -1,4 +1,5 @@
 /* The life of an instance: memory, initialisation, the end. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +13,7 @@ static bool new_session(fmu *f) {
   if (!s) return fmu_refuse(f, "%s", message);
   s->result = rt_result_new(0, 0, s->d->n_p, 4);
   if (!s->result) return fmu_refuse(f, "out of memory");
+  f->last_stop = INFINITY;
   f->warnings_said = 0;
   s->start = fmu_configuration.start_time;
   s->stop = fmu_configuration.stop_time;
@@ -103,12 +105,13 @@ bool fmu_reset(fmu *f) {
   return begin_life(f);
 }
 
-/* `stop` NAN: not known, `tolerance` 0: the model's own. Runs may go on past the stop time. */
+/* `stop` NAN: not known, `tolerance` 0: the model's own. */
 bool fmu_enter_initialisation(fmu *f, double start, double stop, double tolerance) {
   rt_session *s = f->session;
   if (f->mode != FMU_SETUP) return fmu_refuse(f, "initialisation begins once, after instantiation or reset");
   double span = fmu_configuration.stop_time - fmu_configuration.start_time;
   s->start = s->t = start;
+  f->last_stop = isnan(stop) ? INFINITY : stop;
   s->stop = isnan(stop) || !(stop > start) ? start + (span > 0 ? span : 1) : stop;
   if (tolerance > 0) {
     s->options.rtol = tolerance;

@@ -51,6 +51,7 @@ typedef struct fmu {
   bool driven;       /* inputs were set since the last event */
   bool logging;
   void *environment;
+  double last_stop;     /* the stop time that the importer has given; infinite: none */
   size_t warnings_said; /* of the session's */
   void (*say)(struct fmu *f, bool warning, const char *message);
   void (*logger)(void); /* of the importer, as its version of the interface has it */

@@ -26,6 +26,9 @@ bool fmu_step(fmu *f, double from, double size, bool may_stop, bool *event) {
   if (!(size > 0) || !isfinite(size)) return fmu_refuse(f, "a step of %g s", size);
   if (fabs(from - s->t) > 1e-9 * size + 1e-12 * fabs(s->t))
     return fmu_refuse(f, "the step begins at %.17g s, but the last one ended at %.17g s", from, s->t);
+  if (from + size > f->last_stop + 1e-9 * size)
+    return fmu_refuse(f, "the step ends at %.15g s, the stop time that was given is %.15g s", from + size,
+                      f->last_stop);
   fmu_news news;
   if ((f->driven || f->retuned || s->pending) && !fmu_happen(f, &news)) return false;
   bool done = step_to(f, from + size, may_stop, event);

@@ -117,6 +117,18 @@ def test_verify_needs_the_inputs_as_they_were(place: Path) -> None:
     assert (said.exit_code, "Decay.mo is not what" in said.output) == (1, True)
 
 
+@pytest.mark.parametrize("word", ["u=drive.csv", "u=drive.csv:u"])
+def test_verify_needs_recorded_inputs_as_they_were(place: Path, word: str) -> None:
+    (place / "Driven.mo").write_text(
+        "model Driven\n  input Real u; Real x(start=0, fixed=true);\nequation\n  der(x) = u;\nend Driven;\n"
+    )
+    (place / "drive.csv").write_text("time,u\n0,0\n1,1\n")
+    assert status_of("simulate", "Driven.mo", "--stop", "1", "-u", word, "--out", "out") == 0
+    (place / "drive.csv").write_text("time,u\n0,0\n1,2\n")
+    said = CliRunner().invoke(app, ["verify", "out"])
+    assert (said.exit_code, "drive.csv is not what" in said.output) == (1, True)
+
+
 FORGED = [
     {"command": ["lsp"]}, {"files": ["../x"]}, {"files": ["/etc/passwd"]}, {"inputs": []}, {"format": 1},
     {"command": ["simulate", "Decay.mo", "--watch"]}, {"command": ["simulate", "Decay.mo", "--out=elsewhere"]},

@@ -121,6 +121,20 @@ def test_a_parameter_is_tuned_between_steps(fmus: Fmus) -> None:
         assert real(fmu, "x")[0] == pytest.approx(np.exp(-1 - 4 * 0.5), rel=1e-5)
 
 
+@pytest.mark.parametrize("version", ["2.0", "3.0"])
+def test_no_step_goes_past_the_stop_time_that_was_given(
+    fmus: Fmus, capfd: pytest.CaptureFixture[str], version: str
+) -> None:
+    with fmus.instance("Dahlquist", "cs", version) as fmu:
+        begin(fmu, stop=0.3)
+        for k in range(3):
+            fmu.doStep(0.1 * k, 0.1)
+        with pytest.raises(Exception, match="failed"):
+            fmu.doStep(0.3, 0.1)
+    captured = capfd.readouterr()
+    assert "the stop time that was given is 0.3" in captured.out + captured.err
+
+
 def test_dependent_parameters_follow_and_sample_clocks_are_set_anew(fmus: Fmus) -> None:
     with fmus.instance("Clockwork", "cs") as fmu:
         begin(fmu)
