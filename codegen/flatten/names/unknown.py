@@ -37,7 +37,7 @@ def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> 
         more = f" and {len(known) - LISTED} more" if len(known) > LISTED else ""
         held = f"{current.name} has {', '.join(known[:LISTED])}{more}" if known else ""
         current = own_or_inherited(library, current, name)
-    hint = did_you_mean(missing, known) or held or _elsewhere(library, ref)
+    hint = did_you_mean(missing, known) or held or _to_import(library, ref) or _elsewhere(library, ref)
     if current is None and missing == ref.names[0] in visible_classes(library, cls):
         imported = _imported_as(cls, missing)
         hint = (
@@ -57,6 +57,20 @@ def _imported_as(cls: ast.Class, name: str) -> ast.Ref | None:
                 return item.path
         current = None if current.encapsulated else current.parent
     return None
+
+
+def _to_import(library: Library, ref: ast.Ref) -> str:
+    """A hint where the name begins as the standard library's users write it who import its packages, as in SI.Voltage."""
+    for holder in ("Modelica.Units", "Modelica"):
+        cls: ast.Class | None = library.root
+        try:
+            for name in (*holder.split("."), *ref.names):
+                cls = own_or_inherited(library, cls, name) if cls is not None else None
+        except Diagnostic:
+            return ""
+        if cls is not None:
+            return f"write import {holder}.{ref.names[0]}; in the class"
+    return ""
 
 
 def _elsewhere(library: Library, ref: ast.Ref) -> str:
