@@ -60,7 +60,7 @@ def _imported_as(cls: ast.Class, name: str) -> ast.Ref | None:
 
 
 def _to_import(library: Library, ref: ast.Ref) -> str:
-    """A hint where the name begins as the standard library's users write it who import its packages, as in SI.Voltage."""
+    """A hint where the name begins as those write it who import a package of the standard library, as in SI.Voltage."""
     for holder in ("Modelica.Units", "Modelica"):
         cls: ast.Class | None = library.root
         try:
