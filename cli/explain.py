@@ -11,6 +11,7 @@ import lacuna
 from lacuna.cli.answer import Answer, answered
 from lacuna.cli.options import Libraries
 from lacuna.cli.progress import progress
+from lacuna.cli.steps import doubts
 
 
 @answered
@@ -31,4 +32,4 @@ def explain(
     """
     with progress() as tell:
         found = lacuna.explain(case, libraries=library or [], out=out, limit=limit, progress=tell)
-    return Answer(found.diagnosis, [found.sentence], list(found.written))
+    return Answer(found.diagnosis, [found.sentence], list(found.written), doubts(found.problems))

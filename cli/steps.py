@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated
 
@@ -23,7 +24,7 @@ def fit(case: Case, library: Libraries = None, out: Out = None) -> Answer:
     """Are the believed equations enough? Fit all parameters that are not exact; print them with their intervals."""
     with progress() as tell:
         found = lacuna.open_case(case, libraries=library or []).fit(out=out, progress=tell)
-    return Answer(found.diagnosis, [_parameters(found), _errors(found, "before")], list(found.written))
+    return _answer(found, _parameters(found), _errors(found, "before"))
 
 
 @answered
@@ -50,7 +51,7 @@ def amend(
     """Write the model amended by one effect of the catalogue, fitted, and judge the file as it is written."""
     with progress() as tell:
         found = lacuna.open_case(case, libraries=library or []).amend(effect, out=out, progress=tell)
-    return Answer(found.diagnosis, [_errors(found, "after")], list(found.written))
+    return _answer(found, _errors(found, "after"))
 
 
 @answered
@@ -66,7 +67,16 @@ def judge(
     for signal, value in found.validate.items():
         table.add_row(signal or "all", f"{value:.4g}")
     data = {"fit": found.fit, "validate": found.validate}
-    return Answer(data, [table], [found.report], [f"warning: {problem}" for problem in found.problems])
+    return Answer(data, [table], [found.report], doubts(found.problems))
+
+
+def _answer(found: lacuna.Explanation, *parts: Table | str, **more: object) -> Answer:
+    return Answer(found.diagnosis | more, list(parts), list(found.written), doubts(found.problems))
+
+
+def doubts(problems: Iterable[str]) -> list[str]:
+    """What was left out of the recordings, or is doubtful in them."""
+    return [f"warning: {problem}" for problem in problems]
 
 
 def _ranking(found: lacuna.Explanation) -> Answer:
@@ -75,7 +85,7 @@ def _ranking(found: lacuna.Explanation) -> Answer:
         table.add_row(*row)
     ranking = [dict(zip(found.ranked, row, strict=True)) for row in found.ranking]
     remark = [found.remark] if found.remark else []
-    return Answer(found.diagnosis | {"ranking": ranking}, [table, *remark], list(found.written))
+    return _answer(found, table, *remark, ranking=ranking)
 
 
 def _parameters(found: lacuna.Explanation) -> Table:

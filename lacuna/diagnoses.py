@@ -36,6 +36,7 @@ class Explanation:
     ranked: tuple[str, ...] = ()  # what the columns of `ranking` are
     remark: str = ""
     written: tuple[Path, ...] = field(default=(), repr=False)
+    problems: tuple[str, ...] = ()  # of the recordings: what was left out, or is doubtful
 
     @property
     def verdict(self) -> Verdict | None:
@@ -260,7 +261,8 @@ class Case:
         files = (*written, page_of, *([amended] if amended else []))
         data = diagnosis.build(found, amended)
         data = data if concluded else {k: v for k, v in data.items() if k not in ("verdict", "sentence", "certainty")}
-        return Explanation(data, page_of, amended, ranking, ranked, remark, files)
+        problems = tuple(map(str, found.problems))
+        return Explanation(data, page_of, amended, ranking, ranked, remark, files, problems)
 
     def __repr__(self) -> str:
         return f"<Case {self.title}: {self.model}, {len(self._case.fit)} + {len(self._case.validate)} recordings>"

@@ -143,7 +143,7 @@ rt_status rt_happen(rt_session *s) {
   rt_status status = rt_event(s);
   rt_delays_event(s);
   rt_transports_event(s);
-  if (!status) rt_tell_warnings(s);
+  if (!status) status = rt_check_asserts(s);
   if (s->pending != RT_PENDING_BRANCH) rt_branch_begin(s); /* else the equations are the same */
   s->pending = 0;
   return status ? status : rt_check_point(s, true);

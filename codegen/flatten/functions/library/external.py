@@ -5,9 +5,10 @@ from __future__ import annotations
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.functions.kept.code import emitted_call
-from lacuna.codegen.flatten.functions.library import impure, linear_equations, objects, spectrum, streams, strings
+from lacuna.codegen.flatten.functions.library import impure, objects, spectrum, streams, strings
 from lacuna.codegen.flatten.functions.library.data_files import CSV_COLUMN, column_of_file
 from lacuna.codegen.flatten.functions.library.foreign import check_foreign
+from lacuna.codegen.flatten.functions.library.linear_algebra import equations, singular_values
 from lacuna.codegen.flatten.functions.library.objects import ExternalCall, Handler
 from lacuna.codegen.flatten.functions.locals import Signature
 from lacuna.codegen.flatten.names.scope import Scope
@@ -17,7 +18,7 @@ from lacuna.codegen.syntax.references import references
 
 HANDLERS: dict[str, Handler] = {
     **objects.TABLES, **strings.STRINGS, **streams.STREAMS,
-    **spectrum.SPECTRA, **impure.IMPURE, **linear_equations.LINEAR_EQUATIONS,
+    **spectrum.SPECTRA, **impure.IMPURE, **equations.LINEAR_EQUATIONS, **singular_values.SINGULAR_VALUES,
 }  # fmt: skip
 
 

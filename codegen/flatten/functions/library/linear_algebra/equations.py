@@ -105,7 +105,7 @@ end dgesv;
 
 @lru_cache(maxsize=1)
 def _functions() -> dict[str, ast.Class]:
-    return {cls.name: cls for cls in parse(_TEXT, "linear_equations.mo")}
+    return {cls.name: cls for cls in parse(_TEXT, "equations.mo")}
 
 
 def _run(name: str, call: ExternalCall, **given: Value) -> list[Value]:

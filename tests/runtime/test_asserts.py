@@ -1,4 +1,4 @@
-"""Asserts of level warning: told once in a run, where they are first violated, with values; the run goes on."""
+"""Asserts: those of level warning are told once in a run, where they are first violated; events are looked at too."""
 
 from __future__ import annotations
 
@@ -61,3 +61,24 @@ equation
 end Many;
 """
     assert len(runtime.simulate(compiled(tmp_path, text), stop=1.0).warnings) == 100
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4", "euler"])
+@pytest.mark.parametrize("at", ["time >= 1", "x > 0.5"])
+def test_what_an_event_violates_is_told_at_the_event(tmp_path: Path, solver: str, at: str) -> None:
+    """Errors too, and where the run would end there."""
+    text = f"""model Counted
+  Real x(start=0, fixed=true);
+  Integer n(start=0, fixed=true);
+equation
+  der(x) = 1;
+  when {at} then
+    n = 1;
+  end when;
+  assert(n < 1, "n is one");
+end Counted;
+"""
+    run = runtime.simulate(compiled(tmp_path, text), solver=solver, step=0.01, stop=1.0)
+    assert run.failure is not None
+    assert run.failure.status == "assert"
+    assert run.failure.time == pytest.approx(1.0 if "time" in at else 0.5, abs=0.011)

@@ -1,0 +1,1 @@
+"""What Modelica.Math.Matrices asks of LAPACK, as functions of the language."""
