@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from lacuna.codegen import flat
@@ -44,3 +45,20 @@ def within(written: Expr, left: Expr, right: Expr) -> str:
 def rename(relations: list[Relation], rewriter: Rewriter) -> list[Relation]:
     """The relations with other names of derivatives."""
     return [replace(r, left=rewriter.expression(r.left), right=rewriter.expression(r.right)) for r in relations]
+
+
+def asked(expressions: Iterable[Expr]) -> set[int]:
+    """Numbers of the relations that every evaluation of the expressions asks for: those in no branch of an `if`
+    and behind no `and` or `or`."""
+    found: set[int] = set()
+    seen: set[Expr] = set()
+    waiting = list(expressions)
+    while waiting:
+        e = waiting.pop()
+        if e in seen:
+            continue
+        seen.add(e)
+        if e.op == "rel":
+            found.add(int(e.value))
+        waiting += e.args[:1] if e.op in ("if", "and", "or") else e.args
+    return found

@@ -130,12 +130,13 @@ typedef struct {
 } mdl_assert;
 
 /* A relation of time, parameters and discretes only is switched by a time event, not by a root. A follower compares
- * what event() sets, without deciding about it: what event() does reads it as it is then. */
-enum { MDL_OF_TIME = 1, MDL_FOLLOWER = 2 };
+ * what event() sets, without deciding about it: what event() does reads it as it is then. One that is asked stands in
+ * no branch that may not hold. */
+enum { MDL_OF_TIME = 1, MDL_FOLLOWER = 2, MDL_ASKED = 4 };
 
 typedef struct {
   mdl_equation source;
-  int kind; /* bits: MDL_OF_TIME, MDL_FOLLOWER */
+  int kind; /* bits: MDL_OF_TIME, MDL_FOLLOWER, MDL_ASKED */
 } mdl_relation;
 
 /* What an equation gives, in the order in which it is computed: a dependent parameter, a derivative, an algebraic. */

@@ -26,10 +26,11 @@ rt_status rt_check_values(rt_session *s, double t, const double *x, const double
   return rt_fail_model(s, t, "computing variables");
 }
 
-/* A guard that is no number although no event lies between now and when it was one: it still matters. */
-static rt_status check_guards(rt_session *s) {
+/* A guard that is no number: it matters where every evaluation asks for it, and where it was one and no event lies
+ * between then and now. */
+static rt_status check_guards(rt_session *s, bool fresh) {
   for (int r = 0; r < s->d->n_rel; r++)
-    if (isnan(s->g[r]) && isfinite(s->g_previous[r]))
+    if (isnan(s->g[r]) && ((s->d->relations[r].kind & MDL_ASKED) || (!fresh && isfinite(s->g_previous[r]))))
       return rt_fail(s, RT_NONFINITE, s->t, -1, &s->d->relations[r].source,
                      "at time %.9g s one side of this relation is not a number", s->t);
   return RT_OK;
@@ -131,7 +132,10 @@ static rt_status check_divisions(rt_session *s, bool fresh) {
   if (d->divisions(&s->data, s->t, s->data.x, s->data.xdot, s->data.v, s->division))
     return rt_fail_model(s, s->t, "checking divisors");
   for (int k = 0; k < d->n_divisions; k++) {
-    double product = s->division[2 * k] * s->division[2 * k + 1];
+    double numerator = s->division[2 * k], divisor = s->division[2 * k + 1], product = numerator * divisor;
+    if (divisor == 0 && fabs(numerator) > 0) /* what is infinite may be finite again: atan(1/x), 1/x > 5 */
+      return rt_fail(s, RT_DOMAIN, s->t, -1, &d->equations[d->division_equation[k]],
+                     "division by zero at time %.9g s (numerator %.3g)", s->t, numerator);
     int now = sign(product), before = s->division_sign[k];
     if (isnan(product) || fresh || now) s->division_sign[k] = (signed char)now;
     if (fresh || isnan(product) || now * before >= 0) continue;
@@ -171,6 +175,7 @@ rt_status rt_check_point(rt_session *s, bool fresh) {
   if (!fresh && !d->n_divisions && rt_finite(d->n_v, s->data.v) && rt_finite(d->n_rel, s->g)) return RT_OK;
   bool leaving = s->pending & RT_PENDING_STATE;
   rt_status status = leaving ? RT_OK : rt_check_values(s, s->t, s->data.x, s->data.xdot, s->data.v);
-  if (!status && !leaving) status = fresh ? check_discrete(s) : check_guards(s);
+  if (!status && !leaving) status = check_guards(s, fresh);
+  if (!status && !leaving && fresh) status = check_discrete(s);
   return status ? status : check_divisions(s, fresh);
 }

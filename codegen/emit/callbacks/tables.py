@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from lacuna.codegen import flat
 from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.dae.relations import asked
 from lacuna.codegen.dae.storage import Slot
 from lacuna.codegen.emit.callbacks.asserts import all_asserts, shown_values
 from lacuna.codegen.emit.callbacks.discrete import is_settable
@@ -13,7 +14,7 @@ from lacuna.codegen.emit.callbacks.equations import EquationTable
 from lacuna.codegen.emit.text.c_text import SourceNames, c_string
 from lacuna.codegen.emit.text.expression import number
 from lacuna.codegen.errors import Span
-from lacuna.codegen.structure.causal import NonlinearBlock, of_nonlinear
+from lacuna.codegen.structure.causal import NonlinearBlock, expressions_of, of_nonlinear
 from lacuna.codegen.structure.system import DeclaredValues, System
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.symbolic.leaves import leaves
@@ -112,9 +113,15 @@ class Tables:
         return [[rows[name] for name in names if name in rows] for names in shown_values(self._p)]
 
     def relations(self) -> list[str]:
-        follows = self._p.followers
-        kinds = [int(r.slope is not None) + 2 * (k in follows) for k, r in enumerate(self._p.relations)]
+        follows, always = self._p.followers, asked(self._evaluated())
+        kinds = [
+            int(r.slope is not None) + 2 * (k in follows) + 4 * (k in always) for k, r in enumerate(self._p.relations)
+        ]
         return [f"{{{self._source(r.source, r.text)}, {n}}}" for r, n in zip(self._p.relations, kinds, strict=True)]
+
+    def _evaluated(self) -> list[Expr]:
+        conditions = [step.branches[0][0] for step in self._p.events if isinstance(step, flat.When)]
+        return [*conditions, *(e for step in self._p.explicit for e in expressions_of(step))]
 
     def affine_guards(self) -> list[str]:
         moving = self._p.guards.moving
