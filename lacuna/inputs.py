@@ -22,12 +22,13 @@ ROUNDING = 1e-12  # of times that were written with all their digits
 class Measured(RecordedInput):
     """Samples of a file: `values` in `unit`, which is SI, or "" where the file says none. `inferred`: the unit that the
     name of the column ends like, if nothing else says one; it is believed where the input is of that quantity.
-    `unread`: what the file says is the unit, and is none."""
+    `unread`: what the file says is the unit, and is none. `gap`: the longest stretch in which samples lack, s."""
 
     unit: str = ""
     source: str = ""
     inferred: str = ""
     unread: str = ""
+    gap: tuple[float, float] | None = None
 
 
 Input = float | RecordedInput | tuple[Any, Any]
@@ -52,7 +53,19 @@ def recorded(file: str | Path, column: str, *, hold: bool = False) -> RecordedIn
     factor, unit = to_si(said) if said else (1.0, "")
     values, inferred = channel.values[present] * factor, "" if said else channel.unit
     source, unread = f"{file}: {column}", channel.head.unread
-    return Measured(channel.time[present], values, "hold" if hold else "linear", unit, source, inferred, unread)
+    gap = _longest_gap(channel.time, present)
+    return Measured(channel.time[present], values, "hold" if hold else "linear", unit, source, inferred, unread, gap)
+
+
+def _longest_gap(time: np.ndarray, present: np.ndarray) -> tuple[float, float] | None:
+    """Begin and end of the longest stretch of empty cells that is more than a sample of the channel's own rate, which
+    may be lower than that of the file."""
+    kept, spacing = np.flatnonzero(present), np.diff(time[present])
+    lacking = (np.diff(kept) > 1) & (spacing > 1.5 * np.median(spacing)) if spacing.size else np.zeros(0, bool)
+    if not lacking.any():
+        return None
+    longest = int(np.argmax(np.where(lacking, spacing, 0.0)))
+    return float(time[kept[longest]]), float(time[kept[longest + 1]])
 
 
 def as_inputs(given: Mapping[str, Input], variables: Mapping[str, Variable]) -> dict[str, RecordedInput | float]:
@@ -100,9 +113,14 @@ def uncovered(given: Mapping[str, Input], start: float, stop: float) -> list[str
 
 
 def assumed(given: Mapping[str, Input], variables: Mapping[str, Variable]) -> list[str]:
-    """A warning for each input of samples whose unit is not known, or hangs on the end of their name alone."""
+    """A warning for each input of samples of which some lack, or whose unit is not known, or hangs on the end of their
+    name alone."""
     said = []
     for name, value in given.items():
+        if isinstance(value, Measured) and value.gap is not None:
+            bridged = "held" if value.interpolation == "hold" else "bridged by a straight line"
+            between = f"between {value.gap[0]:g} and {value.gap[1]:g} s, the longest gap"
+            said.append(f"warning: input {name}: {value.source} lacks samples, {between}; they are {bridged}")
         if isinstance(value, Measured) and value.unread:
             said.append(
                 f"warning: input {name}: {value.source} is taken as it is: {value.unread} is no unit known here"

@@ -295,13 +295,25 @@ def pre(e: Expr) -> Expr:
     return node("pre", (e,), None, e.type)
 
 
+def _floor_of(a: float, b: float) -> int:
+    """The largest whole number that is not above a/b; of Integers without rounding."""
+    return a // b if isinstance(a, int) and isinstance(b, int) else math.floor(a / b)
+
+
+def _whole_of(a: float, b: float) -> int:
+    """a/b without its fraction; of Integers without rounding."""
+    if isinstance(a, int) and isinstance(b, int):
+        return abs(a) // abs(b) * (1 if (a < 0) == (b < 0) else -1)
+    return math.trunc(a / b)
+
+
 _fold: dict[str, Callable[..., float]] = {
     "abs": abs, "sqrt": math.sqrt, "sin": math.sin, "cos": math.cos, "tan": math.tan, "asin": math.asin,
     "acos": math.acos, "atan": math.atan, "atan2": math.atan2, "sinh": math.sinh, "cosh": math.cosh,
     "tanh": math.tanh, "exp": math.exp, "log": math.log, "log10": math.log10,
     "sign": lambda a: (a > 0) - (a < 0), "floor": math.floor, "ceil": math.ceil, "integer": math.floor,
-    "mod": lambda a, b: a - math.floor(a / b) * b,
-    "rem": lambda a, b: a - math.trunc(a / b) * b, "div": lambda a, b: math.trunc(a / b),
+    "mod": lambda a, b: a - _floor_of(a, b) * b,
+    "rem": lambda a, b: a - _whole_of(a, b) * b, "div": lambda a, b: _whole_of(a, b),
 }  # fmt: skip
 
 

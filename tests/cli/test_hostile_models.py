@@ -234,3 +234,44 @@ def test_a_link_to_itself_is_named(tmp_path: Path, command: list[str]) -> None:
     link.symlink_to(link)
     result = CliRunner().invoke(app, [*command, str(link)])
     assert result.exit_code == 1 and "loop.mo: a symbolic link that leads to itself" in result.output
+
+
+SUMS = "function g input Integer n; output Integer y; protected Integer z = n; algorithm for i in 1:60 loop z := {z}; "
+SUMS += "end for; y := mod(z, 10); end g; "
+
+
+@pytest.mark.parametrize("z", ["z + z + 1", "z - (-z)", "z + n*z"])
+def test_sums_beyond_2_53_decide_nothing(tmp_path: Path, z: str) -> None:
+    """In a function and in a model; what is known at translation is computed without rounding."""
+    text = f"model M {SUMS.format(z=z)} parameter Integer p = 3; Integer y = g(p); end M;"
+    status, said = simulated(tmp_path, text)
+    assert (status, "2^53" in said) == (1, True), said
+    exact = 3
+    for _ in range(60):
+        exact = {"z + z + 1": 2 * exact + 1, "z - (-z)": 2 * exact, "z + n*z": 4 * exact}[z]
+    text = f"model M {SUMS.format(z=z)} constant Integer n = g(3); Real y = n + time; end M;"
+    assert simulated(tmp_path, text)[0] == 0
+    assert float((tmp_path / "out" / "M.csv").read_text().splitlines()[1].split(",")[1]) == exact % 10
+
+
+def test_sums_of_a_model_beyond_2_53_decide_nothing(tmp_path: Path) -> None:
+    text = "model M Integer q = if time < 0.5 then 3 else 4000000000000000; Integer a = mod(q + q + q + 1, 2); end M;"
+    status, said = simulated(tmp_path, text)
+    assert (status, "2^53" in said) == (1, True), said
+
+
+@pytest.mark.parametrize(
+    ("y", "status"),
+    [
+        ("if sqrt(x - 1) > 0 then 1 else 2", 1),
+        ("sign(asin(x - 2))", 1),
+        ("atan(1/x)", 1),
+        ("exp(-1/x^2)", 1),
+        ("if x > 1 then (if sqrt(x - 1) > 0 then 1 else 2) else 3", 0),
+        ("if x > 1 and sqrt(x - 1) > 0 then 1 else 2", 0),
+        ("if x > 0 then atan(1/x) else 0", 0),
+    ],
+)
+def test_what_is_no_number_decides_nothing_from_the_start_on(tmp_path: Path, y: str, status: int) -> None:
+    text = f"model M Real x(start=0, fixed=true), y; equation der(x) = 0; y = {y}; end M;"
+    assert simulated(tmp_path, text)[0] == status

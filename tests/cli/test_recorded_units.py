@@ -151,3 +151,19 @@ def test_what_is_no_number_or_no_name_is_said_to_be_none(tmp_path: Path) -> None
             lacuna.UserError, match="a model is given here by its name or file, not as Model; write 'Turn'"
         ):
             function(model)
+
+
+@pytest.mark.parametrize(("hold", "how"), [(False, "bridged by a straight line"), (True, "held")])
+def test_samples_that_lack_are_told(tmp_path: Path, hold: bool, how: str) -> None:
+    """Not the cells that a channel of a lower rate leaves empty."""
+    whole, lacking = [f"{k / 10},{k},{k if k % 2 == 0 else ''}" for k in range(21)], []
+    for k, line in enumerate(whole):
+        lacking.append(line if not 5 <= k <= 9 else f"{k / 10},,{k if k % 2 == 0 else ''}")
+    for name, lines in (("whole", whole), ("lacking", lacking)):
+        (tmp_path / f"{name}.csv").write_text("\n".join(["time,u,slow", *lines]) + "\n")
+    model = lacuna.load(turn(tmp_path, "1"))
+    for name, column, gap in (("whole", "u", 0), ("whole", "slow", 0), ("lacking", "u", 1)):
+        driven = lacuna.recorded(tmp_path / f"{name}.csv", column, hold=hold)
+        said = [w for w in model.simulate(inputs={"u": driven}, stop=2.0).warnings if "lacks samples" in w]
+        assert len(said) == gap
+        assert all(f"between 0.4 and 1 s, the longest gap; they are {how}" in w for w in said)

@@ -34,11 +34,9 @@ HELPERS = {
     "mdl_mod": "static inline double mdl_mod(double a, double b) { return a - floor(a / b) * b; }",
     "mdl_rem": "static inline double mdl_rem(double a, double b) { return a - trunc(a / b) * b; }",
     "mdl_div": "static inline double mdl_div(double a, double b) { return trunc(a / b); }",
-    # of Integers: no number where the product reaches 2^53 and may not be exact, so that nothing is made of it
-    "mdl_times": "static inline double mdl_times(double a, double b) {\n"
-    "  const double product = a * b;\n"
-    "  return fabs(product) >= 0x1p53 ? NAN : product;\n}",
-    # of sides that hold such a product: noted as a failure where one of them is no number
+    # of Integers: no number where the result reaches 2^53 and may not be exact, so that nothing is made of it
+    "mdl_exact": "static inline double mdl_exact(double result) { return fabs(result) >= 0x1p53 ? NAN : result; }",
+    # of sides that hold such a result: noted as a failure where one of them is no number
     "mdl_compared": "static inline int mdl_compared(const mdl_data *m, double a, double b, int holds) {\n"
     "  if (a != a || b != b) (void)mdl_fail((mdl_data *)m, MDL_FAILURE_INEXACT, -1, 0.0);\n"
     "  return holds;\n}",
@@ -86,8 +84,8 @@ def _print(e: Expr, name: Lookup) -> tuple[str, int]:
     if e.op == "const":
         text = number(e.value) if e.type != BOOLEAN or e.value in (0, 1) else NO_BOOLEAN
         return text, _UNARY if text.startswith("-") else _PRIMARY
-    if e.op == "*" and not any(map(_keeps_size, e.args)):
-        return f"mdl_times({_list(e.args, name)})", _PRIMARY
+    if _may_round(e):
+        return f"mdl_exact({_print_binary(e, name)[0]})", _PRIMARY
     if e.op in RELATIONS and is_doubtful(e):
         sides, (holds, _) = _list(e.args, name), _print_binary(e, name)
         return f"mdl_compared(m, {sides}, {holds})", _PRIMARY
@@ -123,13 +121,16 @@ def _print(e: Expr, name: Lookup) -> tuple[str, int]:
 
 
 def is_doubtful(relation: Expr) -> bool:
-    """Whether a product of Integers that may not be exact is compared; where it is not, it is no number."""
-    return any(n.op == "*" and not any(map(_keeps_size, n.args)) for side in relation.args for n in walk(side))
+    """Whether a sum or product of Integers that may not be exact is compared; where it is not, it is no number."""
+    return any(_may_round(n) for side in relation.args for n in walk(side))
 
 
-def _keeps_size(factor: Expr) -> bool:
-    """Whether a product with it is exact, as far as a double is: it is no Integer, or one that is at most 1 in size."""
-    return factor.type != INTEGER or (factor.op == "const" and abs(factor.value) <= 1)
+def _may_round(e: Expr) -> bool:
+    """Whether `e` is a sum or a product of Integers that may reach 2^53. One with a constant grows too slowly to get
+    there but from near by, a product with one of at most 1 in size not at all."""
+    if e.op not in ("+", "-", "*") or any(a.type != INTEGER for a in e.args):
+        return False
+    return not any(a.op == "const" and (e.op != "*" or abs(a.value) <= 1) for a in e.args)
 
 
 def _list(args: tuple[Expr, ...], name: Lookup) -> str:
