@@ -24,9 +24,10 @@ bool fmu_step(fmu *f, double from, double size, bool may_stop, bool *event) {
   *event = false;
   if (f->mode != FMU_STEP) return fmu_refuse(f, "a step follows initialisation or event mode");
   if (!(size > 0) || !isfinite(size)) return fmu_refuse(f, "a step of %g s", size);
-  if (fabs(from - s->t) > 1e-9 * size + 1e-12 * fabs(s->t))
+  const double rounding = 1e-9 * size + 1e-12 * fabs(s->t); /* of times that an importer adds up */
+  if (fabs(from - s->t) > rounding)
     return fmu_refuse(f, "the step begins at %.17g s, but the last one ended at %.17g s", from, s->t);
-  if (from + size > f->last_stop + 1e-9 * size)
+  if (from + size > f->last_stop + rounding)
     return fmu_refuse(f, "the step ends at %.15g s, the stop time that was given is %.15g s", from + size,
                       f->last_stop);
   fmu_news news;
