@@ -21,7 +21,7 @@ static const mdl_variable mdl_variables[] = {
 };
 
 static const mdl_relation mdl_relations[] = {
-  {{"time < T", "Diode.mo", 13, ""}, 1}
+  {{"time < T", "Diode.mo", 13, ""}, 5}
 };
 
 static const int mdl_z_index[] = {

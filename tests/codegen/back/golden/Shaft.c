@@ -23,7 +23,7 @@ static const mdl_variable mdl_variables[] = {
 };
 
 static const mdl_relation mdl_relations[] = {
-  {{"k * (w_ref - w1) > tau_max in min(k * (w_ref - w1), tau_max)", "Shaft.mo", 18, ""}, 0}
+  {{"k * (w_ref - w1) > tau_max in min(k * (w_ref - w1), tau_max)", "Shaft.mo", 18, ""}, 4}
 };
 
 static const int mdl_residual_equation[] = {
