@@ -75,9 +75,10 @@ def _block(rows: list[Row], unknowns: list[Expr], tearing: Tearing) -> list[Step
         single = _single(rows[0], unknowns[0], tearing)
         if single:
             return [single]
-    torn = tearing.tear(rows, unknowns)
     if not _is_linear(rows, set(unknowns)):
+        torn = tearing.tear_at_guesses(rows, unknowns)
         return [_nonlinear(torn.assignments, torn.tears, torn.residuals)]
+    torn = tearing.tear(rows, unknowns)
     if tearing.amplifies(torn):
         torn = tearing.steady.tear(rows, unknowns)
     if tearing.amplifies(torn):

@@ -99,6 +99,10 @@ class DeclaredValues:
         fixed = all(self._model.variables[n].variability in (flat.CONSTANT, flat.PARAMETER) for n in names)
         return self(e) if fixed and all(n.op == "var" for n in leaves(e)) else None
 
+    def guess(self, n: Expr) -> bool:
+        """Whether a variable declares a start value of its own, one that an undeclared one would not have."""
+        return n.op == "var" and self._model.variables[str(n.value)].start is not None and self(n) != 0.0
+
     def unit(self, n: Expr) -> str:
         """The declared unit of a variable, or of the variable that a derivative is of."""
         while n.op == "der":

@@ -5,7 +5,15 @@ from __future__ import annotations
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.connections.connection_sets import ConnectionSets
-from lacuna.codegen.flatten.connections.connectors import End, Part, connectors, is_outside, parts, refuse_element
+from lacuna.codegen.flatten.connections.connectors import (
+    End,
+    Part,
+    connectors,
+    dimensions,
+    is_outside,
+    parts,
+    refuse_element,
+)
 from lacuna.codegen.flatten.connections.overconstrained import constraint_values
 from lacuna.codegen.flatten.connections.streams import stream_equations
 from lacuna.codegen.flatten.expressions.constants import evaluate
@@ -102,9 +110,10 @@ def _connect(item: ast.Connect, scope: Scope, sets: ConnectionSets, equations: l
     left, right = sides
     if not (left and right):
         return  # a component that a condition removed
-    if len(left) != len(right):
-        message = f"connect: {len(left)} connectors with {len(right)}"
-        raise Diagnostic("R060", message, item.span, "both sides need the same size")
+    sizes = [dimensions(ref, scope) for ref in (item.left, item.right)]
+    if sizes[0] != sizes[1]:
+        message = " with ".join(f"{_counted(n)} ({ref})" for n, ref in zip(sizes, (item.left, item.right), strict=True))
+        raise Diagnostic("R060", f"connect: {message}", item.span, "both sides need the same size")
     for (one, a), (other, b) in zip(left, right, strict=True):
         if a.keys() != b.keys():
             kinds = [
@@ -123,6 +132,10 @@ def _connect(item: ast.Connect, scope: Scope, sets: ConnectionSets, equations: l
             _require_alike(part, b[key], item, scope)
             if part.kind != "fixed":
                 sets.join(part, b[key], item.span, scope.instance.name)
+
+
+def _counted(sizes: tuple[int, ...]) -> str:
+    return f"an array of {' x '.join(map(str, sizes))}" if sizes else "one connector"
 
 
 def _require_alike(a: Part, b: Part, item: ast.Connect, scope: Scope) -> None:

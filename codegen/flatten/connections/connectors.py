@@ -8,7 +8,7 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.instance import Absent, ArrayNode, Instance, Node
 from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.names.scope import Scope
-from lacuna.codegen.flatten.names.values import Array, Value, scalars
+from lacuna.codegen.flatten.names.values import Array, Value, scalars, shape_of
 from lacuna.codegen.flatten.references.class_values import unknown_name
 from lacuna.codegen.flatten.references.references import apply_subscripts, member
 from lacuna.codegen.symbolic import expr as ex
@@ -119,6 +119,22 @@ def pick(
     if subscripts is not None:
         raise Diagnostic("R044", f"{node.name} is no array", ref.span, "remove the subscript")
     return [node]
+
+
+def dimensions(ref: ast.Ref, scope: Scope) -> tuple[int, ...]:
+    """Sizes of the array of connectors that a name means; none for a single one."""
+    node, sizes = scope.instance.meant(ref.names[0]), ()
+    for at, subscripts in enumerate(ref.subscripts):
+        if at:
+            node = member(node, ref, at)
+        if isinstance(node, ArrayNode) or (isinstance(node, Leaf) and node.shape):
+            numbers = _numbers(node) if isinstance(node, Leaf) else node.numbers
+            picked = apply_subscripts(numbers, subscripts, scope, ref)
+            sizes += shape_of(picked)
+            if isinstance(node, Leaf) or not (found := _chosen(picked, ref)):
+                break
+            node = node.items[found[0] - 1]
+    return sizes
 
 
 def _chosen(value: Value, ref: ast.Ref) -> list[int]:

@@ -45,7 +45,7 @@ def evaluate_dimensions(
                 raise Diagnostic("R043", f"the size of {name} is unknown", dimension.span, hint)
             shape = shape_of(bound)
             if position >= len(shape):
-                raise Diagnostic("R043", f"{name} is bound to a scalar", dimension.span, "bind it to an array")
+                raise _of_fewer_dimensions(name, dimensions, shape, modifier)
             result.append(shape[position])
             continue
         size = _dimension(dimension, _knowing_itself(dimension, scope, modifier, name), name)
@@ -53,6 +53,17 @@ def evaluate_dimensions(
             raise Diagnostic("R043", f"{name} has size {size}", dimension.span, f"sizes are from 0 to {MAX_SIZE}")
         result.append(size)
     return result
+
+
+def _of_fewer_dimensions(
+    name: str, dimensions: list[ast.Expression], shape: tuple[int, ...], modifier: Modifier
+) -> Diagnostic:
+    given = "a scalar" if not shape else f"an array of {len(shape)} dimension{'s' if len(shape) > 1 else ''}"
+    hint = "bind it to an array, {1, 2}" if len(dimensions) == 1 else "write a matrix by rows: [1, 2; 3, 4]"
+    message = f"{name} has {len(dimensions)} dimension{'s' if len(dimensions) > 1 else ''} and is bound to {given}"
+    error = Diagnostic("R043", message, modifier.span, hint)
+    error.notes.append((dimensions[0].span, "declared here"))
+    return error
 
 
 def _given(modifier: Modifier | None) -> Value | None:

@@ -29,6 +29,7 @@ from lacuna.codegen.flatten.names.unknown import visible_classes
 from lacuna.codegen.flatten.names.values import FunctionValue, Value, elementwise
 from lacuna.codegen.flatten.names.views import constraints_of
 from lacuna.codegen.flatten.references.references import refuse_conditional
+from lacuna.codegen.library.classes import Library
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.differentiate import Differentiator
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, Expr
@@ -153,7 +154,9 @@ def _defaults_of(cls: ast.Class, e: ast.Call, holder: Component | None, scope: S
     """Inputs that a short definition in the class of a component gives values: names there mean elements of it."""
     if cls.alias is None or holder is None or scope.in_function:
         return {}
-    where = cls.written if isinstance(cls.written, Scope) else Scope(scope.context, cls.parent or cls, holder)
+    around = cls.parent or cls
+    within = holder if _is_kind_of(holder.cls, around, scope.context.library) else None
+    where = cls.written if isinstance(cls.written, Scope) else Scope(scope.context, around, within)
     open_ = {i.name for i in signature_of(cls, scope.context).inputs[len(e.args) :]} - set(e.named)
     found: dict[str, Value] = {}
 
@@ -172,6 +175,12 @@ def _defaults_of(cls: ast.Class, e: ast.Call, holder: Component | None, scope: S
     for tree, around in constraints_of(cls):
         take(tree, Scope(scope.context, around, holder))
     return found
+
+
+def _is_kind_of(cls: ast.Class, other: ast.Class, library: Library) -> bool:
+    """Whether `cls` is `other` or inherits from it."""
+    same = (cls.origin or cls) is (other.origin or other)
+    return same or any(_is_kind_of(base, other, library) for base in base_classes(library, cls))
 
 
 def _functions_beside(ref: ast.Ref, scope: Scope) -> list[str]:

@@ -10,7 +10,7 @@ an exponential gives go into another one: of that no machine number holds the va
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 import heapq
@@ -91,6 +91,11 @@ class Tearing:
         known, `rough` leaves only roughly. `values_first`: rows without derivatives before rows without divisions."""
         return _Order(self, rows, unknowns, rough, values_first).run(given)
 
+    def tear_at_guesses(self, rows: Sequence[Row], unknowns: Sequence[Expr]) -> Torn:
+        """As `tear`, for an iteration: what has a guess becomes a tear before what has none, for an iteration
+        begins at the values of its tears, and a guess for anything else would go unheard."""
+        return _Order(self, rows, unknowns, guessed=frozenset(u for u in unknowns if self._values.guess(u))).run(())
+
     def amplifies(self, torn: Torn, known: Iterable[Expr] = ()) -> bool:
         """Whether the chain of assignments blows up rounding of the tears or of `known` leaves.
 
@@ -145,8 +150,9 @@ class _Order:
         tearing: Tearing,
         rows: Sequence[Row],
         unknowns: Sequence[Expr],
-        rough: Iterable[Expr],
-        values_first: bool,
+        rough: Iterable[Expr] = (),
+        values_first: bool = False,
+        guessed: Collection[Expr] = (),
     ):
         self._tearing, self._rows, self._rough = tearing, rows, set(rough)
         self._steep: set[Expr] = set()
@@ -160,7 +166,7 @@ class _Order:
         self._number = {row: k for k, row in enumerate(rows)}
         self._unused = dict.fromkeys(rows)
         self._uses = {u: len(users) for u, users in self._users.items()}
-        self._tears = [(-self._uses[u], k, u) for k, u in enumerate(unknowns)]
+        self._tears = [(u not in guessed, -self._uses[u], k, u) for k, u in enumerate(unknowns)]
         heapq.heapify(self._tears)
         self._ready: list[tuple[tuple[int, int, int], Row, Expr, Expr]] = []
         self._torn = Torn()
@@ -237,11 +243,12 @@ class _Order:
         return not self._steep.isdisjoint(row.leaves) or any(n in self._uses and n is not unknown for n in own)
 
     def _most_used(self) -> Expr:
-        """The open unknown that most unused equations have, the first of them; counts in the heap may be old."""
+        """The open unknown that most unused equations have, one with a guess before others, the first of them; counts
+        in the heap may be old."""
         while True:
-            uses, k, unknown = heapq.heappop(self._tears)
+            blind, uses, k, unknown = heapq.heappop(self._tears)
             if unknown not in self._open:
                 continue
             if -uses == self._uses[unknown]:
                 return unknown
-            heapq.heappush(self._tears, (-self._uses[unknown], k, unknown))
+            heapq.heappush(self._tears, (blind, -self._uses[unknown], k, unknown))
