@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 22
+#define MDL_ABI_VERSION 23
 
 enum { MDL_FOLLOWS = 1, MDL_ARRIVAL = 2 }; /* bits of events_follow */
 
@@ -33,7 +33,7 @@ typedef enum {
   MDL_FAILURE_LOOP,      /* a function ran too long: loops and calls inside each other; `equation` as of an assert */
   MDL_FAILURE_STACK,     /* functions called each other too deep, or their arrays are too large; `equation` likewise */
   MDL_FAILURE_FOREIGN,   /* external C called ModelicaError, which has told why */
-  MDL_FAILURE_INEXACT    /* Integers are compared of which one is a product of 2^53 or more */
+  MDL_FAILURE_RELATION   /* a side of a relation is no number; `equation` is a place as in `unsettled` */
 } mdl_failure_kind;
 
 typedef struct {
@@ -55,6 +55,8 @@ typedef struct {
 /* Up to here the root is that of the start values' branch (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004,
  * 2.1 and 5.1); towards a double root the ratio tends to 1/2. */
 #define MDL_CONTRACTS 0.25
+
+#define MDL_SOMEWHERE 0x7fffffff /* of no equation that is known */
 
 /* All memory of one run of one model; allocated by the runtime from the counts of the descriptor. */
 typedef struct mdl_data {
@@ -79,6 +81,8 @@ typedef struct mdl_data {
   long stack;        /* bytes of the stack that functions of the model now hold, about; 0 outside of them */
   long rounds;       /* loops' rounds and calls since the outermost function was entered */
   int undetermined;  /* set by rhs(): 1 + an equation of a linear block that leaves unknowns open in this mode */
+  int unsettled;     /* set where a relation that makes no event compares what is no number: 1 + the equation, or
+                        -1 - the row of the function in `asserts`, or MDL_SOMEWHERE; 0: none did */
   void *transports;  /* the runtime's; what the model reads there by */
   double (*carried)(const struct mdl_data *m, int k, double end, double x, int order);
   int brief;    /* 1: rhs() may write no more of v than what it starts from at the next point */

@@ -133,7 +133,7 @@ static rt_status check_divisions(rt_session *s, bool fresh) {
     return rt_fail_model(s, s->t, "checking divisors");
   for (int k = 0; k < d->n_divisions; k++) {
     double numerator = s->division[2 * k], divisor = s->division[2 * k + 1], product = numerator * divisor;
-    if (divisor == 0 && fabs(numerator) > 0) /* what is infinite may be finite again: atan(1/x), 1/x > 5 */
+    if (divisor == 0 && fabs(numerator) > 0) /* what is infinite may be finite again: atan(1/x) */
       return rt_fail(s, RT_DOMAIN, s->t, -1, &d->equations[d->division_equation[k]],
                      "division by zero at time %.9g s (numerator %.3g)", s->t, numerator);
     int now = sign(product), before = s->division_sign[k];
@@ -172,10 +172,12 @@ rt_status rt_check_lasting(rt_session *s) {
 rt_status rt_check_point(rt_session *s, bool fresh) {
   const mdl_descriptor *d = s->d;
   if (s->options.unchecked) return RT_OK;
-  if (!fresh && !d->n_divisions && rt_finite(d->n_v, s->data.v) && rt_finite(d->n_rel, s->g)) return RT_OK;
+  if (!fresh && !d->n_divisions && !s->unsettled && rt_finite(d->n_v, s->data.v) && rt_finite(d->n_rel, s->g))
+    return RT_OK;
   bool leaving = s->pending & RT_PENDING_STATE;
   rt_status status = leaving ? RT_OK : rt_check_values(s, s->t, s->data.x, s->data.xdot, s->data.v);
   if (!status && !leaving) status = check_guards(s, fresh);
+  if (!status && !leaving && rt_check_settled(s, s->unsettled)) status = rt_fail_model(s, s->t, "evaluating");
   if (!status && !leaving && fresh) status = check_discrete(s);
   return status ? status : check_divisions(s, fresh);
 }

@@ -28,7 +28,7 @@ int rt_check_finite(rt_session *s, const double *x) {
 int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v) {
   if (s->d->n_u) rt_inputs_at(s, t);
   s->result->counters.rhs++;
-  s->data.undetermined = 0;
+  s->data.undetermined = s->data.unsettled = 0;
   return s->d->rhs(&s->data, t, x, xdot, v);
 }
 
@@ -45,9 +45,18 @@ int rt_evaluate_into(rt_session *s, double *v) {
   mdl_data *m = &s->data;
   int status = rt_rhs(s, s->t, m->x, m->xdot, v);
   if (!status) status = rt_check_finite(s, m->xdot);
-  if (status || !s->d->n_rel) return status;
-  s->result->counters.root_evaluations++;
-  return s->d->roots(m, s->t, m->x, m->xdot, v, s->g);
+  if (!status && s->d->n_rel) {
+    s->result->counters.root_evaluations++;
+    status = s->d->roots(m, s->t, m->x, m->xdot, v, s->g);
+  }
+  s->unsettled = m->unsettled;
+  return status;
+}
+
+/* 0 where `place`, as mdl_data.unsettled, is none; else 1, with the relation in m->failure. */
+int rt_check_settled(rt_session *s, int place) {
+  if (place) s->data.failure = (mdl_failure){.kind = MDL_FAILURE_RELATION, .equation = place, .variable = -1};
+  return place != 0;
 }
 
 int rt_evaluate(rt_session *s) {

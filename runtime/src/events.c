@@ -74,7 +74,9 @@ static int sweep(rt_session *s, const double *v) {
   memcpy(m->when, s->when_before, (size_t)s->d->n_when);
   memcpy(s->x_swept, m->x, (size_t)s->d->n_x * sizeof *m->x);
   m->reinitialised = 0;
-  return s->d->event(m, s->t, s->x_swept, m->xdot, v);
+  m->unsettled = 0;
+  int status = s->d->event(m, s->t, s->x_swept, m->xdot, v);
+  return status ? status : rt_check_settled(s, m->unsettled);
 }
 
 /* Whether two sweeps set the same: rounding aside, by which a solution of nonlinear equations may differ from the one

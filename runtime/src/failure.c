@@ -49,8 +49,8 @@ static const char *describe(mdl_failure_kind kind) {
     return "functions called each other too deep, or their arrays are too large";
   case MDL_FAILURE_FOREIGN:
     return "external C ended in an error, which it told above";
-  case MDL_FAILURE_INEXACT:
-    return "a product of Integers is compared, and reaches 2^53, from where not all are told apart";
+  case MDL_FAILURE_RELATION:
+    return "one side of a relation is not a number (a root or logarithm of what has none, 0/0, Integers from 2^53 on)";
   case MDL_FAILURE_NONE:
     break;
   }
@@ -62,7 +62,7 @@ static rt_status status_of(mdl_failure_kind kind) {
   case MDL_FAILURE_NONFINITE:
     return RT_NONFINITE;
   case MDL_FAILURE_DOMAIN:
-  case MDL_FAILURE_INEXACT:
+  case MDL_FAILURE_RELATION:
   case MDL_FAILURE_LOOP:
   case MDL_FAILURE_STACK:
     return RT_DOMAIN;
@@ -153,12 +153,26 @@ static int unknown_of(const rt_session *s, int equation) {
   return -1;
 }
 
+/* A relation that compares what is no number, told at its equation or its function. */
+static rt_status fail_relation(rt_session *s, double time, const char *doing) {
+  const mdl_descriptor *d = s->d;
+  mdl_failure_kind kind = s->data.failure.kind;
+  int place = s->data.failure.equation;
+  const mdl_equation *where = place < 0 ? &d->asserts[-1 - place].source : NULL;
+  bool in_equation = place > 0 && place <= d->n_equations;
+  if (in_equation) where = &d->equations[place - 1];
+  rt_fail(s, status_of(kind), time, -1, where, "%s at time %.9g s: %s", doing, time, describe(kind));
+  if (in_equation && d->equation_first) rt_append_equation(s, place - 1);
+  return s->failure.status;
+}
+
 /* Turn the failure that a model function has left in m->failure into the session's. `doing` says what for. */
 rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   const mdl_descriptor *d = s->d;
   const mdl_failure *f = &s->data.failure;
   bool is_assert = f->kind == MDL_FAILURE_ASSERT, endless = f->kind == MDL_FAILURE_LOOP || f->kind == MDL_FAILURE_STACK;
   bool placed = f->equation >= 0 && f->equation < (is_assert || endless ? d->n_asserts : d->n_equations);
+  if (f->kind == MDL_FAILURE_RELATION) return fail_relation(s, time, doing);
   if (endless && placed) return fail_endless(s, time, doing, &d->asserts[f->equation].source);
   if (is_assert && placed) return fail_assert(s, time, &d->asserts[f->equation]);
   const mdl_equation *where = placed && !is_assert ? &d->equations[f->equation] : NULL;
@@ -167,7 +181,7 @@ rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   if (!named) variable = -1;
   if (f->kind == MDL_FAILURE_BOUND && named) return fail_bound(s, time, f);
   char value[40] = "";
-  if (f->kind != MDL_FAILURE_SINGULAR && f->kind != MDL_FAILURE_NEWTON && f->kind != MDL_FAILURE_INEXACT)
+  if (f->kind != MDL_FAILURE_SINGULAR && f->kind != MDL_FAILURE_NEWTON)
     snprintf(value, sizeof value, " (value %.9g)", isnan(f->value) ? fabs(f->value) : f->value);
   rt_fail(s, status_of(f->kind), time, variable, where, "%s at time %.9g s: %s%s%s%s", doing, time, describe(f->kind),
           named ? ", variable " : "", named ? d->variables[variable].name : "", value);

@@ -28,6 +28,7 @@ static void clear(rt_session *s) {
   m->homotopy = 1;
   m->shift = 0;
   m->undetermined = s->undetermined = s->n_held = 0;
+  m->unsettled = s->unsettled = 0;
   m->terminal = m->reinitialised = m->terminated = 0;
   m->failure = (mdl_failure){.equation = -1, .variable = -1};
   memset(s->flip, 0, (size_t)d->n_rel);
@@ -49,7 +50,8 @@ static void clear(rt_session *s) {
 
 static rt_status set_parameters_and_starts(rt_session *s) {
   memcpy(s->data.p, s->p_run, (size_t)s->d->n_p * sizeof *s->p_run);
-  if (s->d->parameters(&s->data)) return rt_fail_model(s, s->start, "computing parameters");
+  if (s->d->parameters(&s->data) || rt_check_settled(s, s->data.unsettled))
+    return rt_fail_model(s, s->start, "computing parameters");
   if (s->d->starts(&s->data)) return rt_fail_model(s, s->start, "computing start values");
   rt_status status = rt_check_parameters(s);
   if (!status) status = rt_scale_parameters(s);
@@ -199,7 +201,8 @@ static rt_status solve_initial_equations(rt_session *s) {
     bool changed = settle_relations(s, i >= MAX_ITERATIONS / 2);
     memcpy(s->when_before, m->when, (size_t)s->d->n_when);
     memcpy(s->x_swept, m->x, (size_t)s->d->n_x * sizeof *m->x);
-    if (s->d->event(m, s->t, m->x, m->xdot, m->v)) return fail_initialisation(s);
+    m->unsettled = 0;
+    if (s->d->event(m, s->t, m->x, m->xdot, m->v) || rt_check_settled(s, m->unsettled)) return fail_initialisation(s);
     if (rt_tangent_initial_event(s)) return s->failure.status;
     changed |= memcmp(m->d, m->pre_d, (size_t)s->d->n_d * sizeof *m->d) != 0;
     if (i >= MAX_ITERATIONS - WATCHED_ITERATIONS) rt_append_changed(s, names, sizeof names);

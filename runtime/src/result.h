@@ -34,6 +34,5 @@ void rt_result_log(rt_result *r, double time, int kind, int index, int direction
 void rt_result_warn(rt_result *r, const char *message);
 void rt_result_flag(rt_result *r, double time, rt_flag_kind kind, int relation, int other);
 
-#define RT_MOST_VALUES 5e8 /* that a result may hold: 4 GiB */
 
 #endif

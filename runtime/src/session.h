@@ -151,6 +151,7 @@ struct rt_session {
   double *division;           /* [2 n_divisions] numerators and divisors */
   signed char *division_sign; /* [n_divisions] of their products when they were last looked at; 0 not known */
   int undetermined, n_held;   /* mdl_data.undetermined since the last event; terms that hold what it leaves open */
+  int unsettled;              /* mdl_data.unsettled of the last evaluation with guards */
   struct rt_slopes *slopes;   /* reach.c; NULL: there are none */
   struct rt_held *held;       /* [n_x + n_z], undetermined.h */
   rt_branches branches;
@@ -242,6 +243,7 @@ int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v);
 int rt_derivatives(rt_session *s, double t, const double *x, double *xdot, double *v);
 int rt_check_finite(rt_session *s, const double *x);
 int rt_evaluate(rt_session *s), rt_evaluate_into(rt_session *s, double *v);
+int rt_check_settled(rt_session *s, int place);
 void rt_residual_point(rt_session *s);
 int rt_jacobian(rt_session *s, double t, double *y, double *yp, double cj, double *values);
 rt_status rt_check_forms(rt_session *s);

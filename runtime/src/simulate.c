@@ -16,7 +16,9 @@ static const double look_every = 0.1; /* s of wall time: has the caller lost int
 rt_status rt_check_asserts(rt_session *s) {
   mdl_data *m = &s->data;
   if (!s->d->n_asserts) return RT_OK;
-  if (s->d->check(m, s->t, m->x, m->xdot, m->v)) return rt_fail_model(s, s->t, "checking");
+  m->unsettled = 0;
+  if (s->d->check(m, s->t, m->x, m->xdot, m->v) || rt_check_settled(s, m->unsettled))
+    return rt_fail_model(s, s->t, "checking");
   rt_tell_warnings(s);
   return RT_OK;
 }

@@ -12,21 +12,20 @@ from lacuna.codegen import flat
 from lacuna.codegen.dae.discrete.events import DiscreteEquation
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.storage import Storage
-from lacuna.codegen.emit.functions.endless import end_of, may_not_end
+from lacuna.codegen.emit.functions.endless import has_row, row_of
 from lacuna.codegen.emit.text.body import Body
-from lacuna.codegen.emit.text.expression import is_doubtful
 from lacuna.codegen.errors import Span
-from lacuna.codegen.symbolic.expr import FALSE, RELATIONS, Expr, walk
+from lacuna.codegen.symbolic.expr import FALSE, Expr, walk
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import all_statements
 
 
 def all_asserts(p: Prepared) -> list[flat.Assert]:
-    """Asserts in the order of the descriptor: those of the model, of its when clauses, of its functions, and that calls
-    of these end."""
+    """Asserts in the order of the descriptor: those of the model, of its when clauses, of its functions, and
+    functions themselves."""
     functions = p.model.functions
     inside = [a for a in _inside([f.body for f in functions.values()]) if a.level == "error"]
-    ends = [end_of(f) for f in functions.values() if may_not_end(f, functions)]
+    ends = [row_of(f) for f in functions.values() if has_row(f, functions)]
     return [*_told(p.model.asserts), *_told(_event_asserts(p)), *inside, *ends]
 
 
@@ -55,9 +54,7 @@ def write_assert(body: Body, check: flat.Assert, row: int) -> None:
         body.line(warned(body.value(condition), row))
         return
     body.line(f"if (!({body.value(condition)})) {{")
-    noted = any(n.op in RELATIONS and is_doubtful(n) for n in walk(condition))
-    only = "if (m->failure.kind == MDL_FAILURE_NONE) " if noted else ""
-    body.line(f"  {only}(void)mdl_fail(m, MDL_FAILURE_ASSERT, {row}, 0.0);")
+    body.line(f"  (void)mdl_fail(m, MDL_FAILURE_ASSERT, {row}, 0.0);")
     body.line("  return -1;")
     body.line("}")
 

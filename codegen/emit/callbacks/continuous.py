@@ -43,8 +43,8 @@ def c_function(signature: str, text: str) -> str:
     unused = [f"  (void){n};" for n in names if n not in words]
     parts = [f"{signature} {{", *unused]
     result = "0"
-    notes = "mdl_compared(" in text or ("fn_" in text and re.search(r"\bfn_\w+\(", text))  # the first are quick
-    if notes and "const mdl_data" not in signature:  # functions and comparisons note their failures
+    notes = "fn_" in text and re.search(r"\bfn_\w+\(", text)  # the first is quick
+    if notes and "const mdl_data" not in signature:  # functions note their failures
         parts.append("  m->failure.kind = MDL_FAILURE_NONE;")
         result = "m->failure.kind != MDL_FAILURE_NONE"
     return "\n".join([*parts, *([text] if text else []), f"  return {result};", "}"])

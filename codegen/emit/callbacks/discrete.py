@@ -10,6 +10,7 @@ from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.relations import Relation
 from lacuna.codegen.emit.callbacks.asserts import assert_rows, is_told, of_parameters, write_assert
 from lacuna.codegen.emit.callbacks.continuous import function
+from lacuna.codegen.emit.callbacks.equations import EquationTable
 from lacuna.codegen.emit.functions.endless import ROUNDS
 from lacuna.codegen.emit.text.body import Body
 from lacuna.codegen.emit.text.names import Names
@@ -32,8 +33,8 @@ class Discrete:
 
     signature = EVENT
 
-    def __init__(self, prepared: Prepared, names: Names, rows: dict[str, int]):
-        self._p, self._names, self._rows = prepared, names, rows
+    def __init__(self, prepared: Prepared, names: Names, rows: dict[str, int], equations: EquationTable):
+        self._p, self._names, self._rows, self._equations = prepared, names, rows, equations
         self._row_of = assert_rows(prepared)
         self._storage = prepared.storage
         self.messages: list[str] = []
@@ -50,7 +51,9 @@ class Discrete:
             match step:
                 case DiscreteEquation():
                     body.line(comment(step.source))
+                    body.doubts.row = lambda source=step.source: self._equations.index(source)
                     self._equation(step)
+                    body.doubts.row = None
                 case flat.When():
                     self._declare(step, step.span)
                     self._when(step)
@@ -192,9 +195,12 @@ class Discrete:
         body.plan(model.variables[n].binding for n in dependent)
         for name in dependent:
             v = model.variables[name]
-            body.line(comment(flat.Equation(var(name), v.binding, v.span, text=f"{name} = {v.binding}")))
+            source = flat.Equation(var(name), v.binding, v.span, text=f"{name} = {v.binding}")
+            body.line(comment(source))
+            body.doubts.row = lambda source=source: self._equations.index(source)
             body.let(var(name, v.type), v.binding)
             body.line(f"m->p[{storage.slot(name).index}] = {self._names.identifier(name)};")
+        body.doubts.row = None
         for name in storage.parameters:
             self._bounds(body, model.variables[name])
         for row, a in of_parameters(self._p):

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 import math
 
 from lacuna.codegen import flat
+from lacuna.codegen.emit.text.doubts import Doubts
 from lacuna.codegen.symbolic.expr import BUILTINS, TRUE, Expr, walk
 from lacuna.codegen.symbolic.function_tangent import by_name, original
 from lacuna.codegen.symbolic.rewrite import all_statements, expressions
@@ -29,8 +30,17 @@ def may_not_end(f: flat.Function, functions: dict[str, flat.Function]) -> bool:
     return loops or frame(f) > _LARGE or is_recursive(f, functions)
 
 
-def end_of(f: flat.Function) -> flat.Assert:
-    """That a call ends, as a row of the table of asserts: where one that does not is told."""
+def has_row(f: flat.Function, functions: dict[str, flat.Function]) -> bool:
+    """Whether a call may go wrong in a way that is told at the function: it does not end, or compares what is no
+    number."""
+    doubts = Doubts(in_function=True)
+    own = original(functions, f.name)
+    compares = any(doubts.of(n) for e in (*own.defaults.values(), *expressions(own.body)) for n in walk(e))
+    return compares or may_not_end(f, functions)
+
+
+def row_of(f: flat.Function) -> flat.Assert:
+    """A function as a row of the table of asserts."""
     return flat.Assert(TRUE, f"function {f.name}", f.span)
 
 

@@ -8,9 +8,10 @@ import math
 import re
 
 from lacuna.codegen import flat
-from lacuna.codegen.emit.functions.endless import ROUNDS, end_of, frame, may_not_end
+from lacuna.codegen.emit.functions.endless import ROUNDS, frame, has_row, may_not_end, row_of
 from lacuna.codegen.emit.functions.foreign import foreign_lines
 from lacuna.codegen.emit.text.c_text import c_comment
+from lacuna.codegen.emit.text.doubts import Doubts
 from lacuna.codegen.emit.text.expression import function_name, lower_powers, to_c
 from lacuna.codegen.emit.text.names import Names
 from lacuna.codegen.emit.text.steps import place
@@ -32,7 +33,8 @@ class FunctionBody:
     ):
         self._assert_index = assert_index
         self._frame, self._guarded = frame(f), may_not_end(f, functions)
-        self._end = assert_index(end_of(f)) if self._guarded else -1
+        self._end = assert_index(row_of(f)) if has_row(f, functions) else -1
+        self._doubts = Doubts(lambda: self._end, in_function=True)
         self._f, self._functions, self._tables = f, functions, names
         self._names = Names(f.shapes)
         self._lines: list[str] = []
@@ -211,7 +213,7 @@ class FunctionBody:
     # -- expressions ------------------------------------------------------------------------------------------
 
     def _text(self, e: Expr) -> str:
-        return to_c(lower_powers(e, self._lowered), self._lookup)
+        return to_c(lower_powers(e, self._lowered), self._lookup, doubts=self._doubts)
 
     def _lookup(self, n: Expr) -> str | None:
         if n.op == "var":

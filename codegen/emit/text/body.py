@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import contextmanager
 
-from lacuna.codegen.emit.text.expression import c_type, is_trivial, lower_powers, to_c
+from lacuna.codegen.emit.text.doubts import Doubts
+from lacuna.codegen.emit.text.expression import c_type, lower_powers, to_c
 from lacuna.codegen.emit.text.names import Names
+from lacuna.codegen.emit.text.uses import Uses
 from lacuna.codegen.symbolic.expr import BOOLEAN, Expr
 from lacuna.codegen.symbolic.leaves import LEAF_OPS, depends, leaves
 
@@ -25,7 +27,8 @@ class Body:
         self._preamble: list[str] = []
         self._lines: list[str] = []
         self._defined: dict[Expr, str] = dict(given or {})  # nodes that have a name already
-        self._uses: dict[Expr, int] = {}
+        self.doubts = Doubts()
+        self._uses = Uses(self.doubts)
         self._depth = 1
         self._temporaries = 0
         self._lowered: dict[Expr, Expr] = {}
@@ -45,25 +48,13 @@ class Body:
 
     def plan(self, roots: Iterable[Expr]) -> None:
         """Count uses in the expressions that follow: what is used twice gets a temporary."""
-        seen: set[Expr] = set()
-        for root in roots:
-            self._count(lower_powers(root, self._lowered), seen)
-
-    def _count(self, root: Expr, seen: set[Expr]) -> None:
-        stack = [root]
-        while stack:
-            n = stack.pop()
-            self._uses[n] = self._uses.get(n, 0) + 1
-            if n not in seen or n.op == "array":  # an array is written out wherever it stands: so are its elements
-                seen.add(n)
-                if n.op not in LEAF_OPS:
-                    stack.extend(n.args)
+        self._uses.plan(lower_powers(root, self._lowered) for root in roots)
 
     def value(self, e: Expr, outer: int = 0) -> str:
         """C text of `e`; temporaries that it shares with others are written before."""
         e = lower_powers(e, self._lowered)
         self._prepare(e)
-        return to_c(e, self._name, outer)
+        return to_c(e, self._name, outer, self.doubts)
 
     def _prepare(self, e: Expr) -> None:
         if e in self._defined or e.op == "const" or self.names.table(e):
@@ -73,10 +64,10 @@ class Body:
             return
         for a in e.args:
             self._prepare(a)
-        if self._uses.get(e, 0) > 1 and not is_trivial(e):
+        if self._uses.is_shared(e):
             self._temporaries += 1
             name = f"tmp{self._temporaries}"
-            self.line(f"const {c_type(e)} {name} = {to_c(e, self._name)};")
+            self.line(f"const {c_type(e)} {name} = {to_c(e, self._name, doubts=self.doubts)};")
             self._defined[e] = name
 
     def _load(self, n: Expr) -> None:
@@ -130,7 +121,7 @@ class Body:
     def scope(self, header: str, roots: Iterable[Expr]) -> Iterable[None]:
         """A braced block whose temporaries end with it."""
         outer_defined, outer_uses, before = self._defined, self._uses, len(self._changed)
-        self._defined, self._uses = dict(outer_defined), {}
+        self._defined, self._uses = dict(outer_defined), Uses(self.doubts)
         self.line(f"{header} {{" if header else "{")
         self._depth += 1
         self.plan(roots)

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from lacuna.codegen.emit.text.doubts import Doubts, may_round
 from lacuna.codegen.symbolic.expr import (
     BOOLEAN,
     BUILTINS,
-    INTEGER,
-    RELATIONS,
     Expr,
     call,
     const,
     div,
     mul,
     transform,
-    walk,
 )
 
 _BINARY = {
@@ -25,6 +23,10 @@ _BINARY = {
 _UNARY, _PRIMARY = 8, 9
 _FUNCTIONS = {
     "abs": "fabs", "integer": "floor", "sign": "mdl_sign", "mod": "mdl_mod", "rem": "mdl_rem", "div": "mdl_div",
+}  # fmt: skip
+_NOTED = {
+    "<": ("mdl_lt", "<"), "<=": ("mdl_le", "<="), ">": ("mdl_gt", ">"), ">=": ("mdl_ge", ">="),
+    "==": ("mdl_eq", "=="), "<>": ("mdl_ne", "!="),
 }  # fmt: skip
 HELPERS = {
     # what is no number stays none: a != a
@@ -36,10 +38,14 @@ HELPERS = {
     "mdl_div": "static inline double mdl_div(double a, double b) { return trunc(a / b); }",
     # of Integers: no number where the result reaches 2^53 and may not be exact, so that nothing is made of it
     "mdl_exact": "static inline double mdl_exact(double result) { return fabs(result) >= 0x1p53 ? NAN : result; }",
-    # of sides that hold such a result: noted as a failure where one of them is no number
-    "mdl_compared": "static inline int mdl_compared(const mdl_data *m, double a, double b, int holds) {\n"
-    "  if (a != a || b != b) (void)mdl_fail((mdl_data *)m, MDL_FAILURE_INEXACT, -1, 0.0);\n"
-    "  return holds;\n}",
+    # of sides that may have no value, which would decide nonetheless: noted, for a run that accepts the point to end
+    "mdl_sides": "static inline void mdl_sides(const mdl_data *m, int where, double a, double b) {\n"
+    "  if (a != a || b != b) ((mdl_data *)m)->unsettled = where;\n}",
+    **{
+        name: f"static inline int {name}(const mdl_data *m, int where, double a, double b) {{\n"
+        f"  mdl_sides(m, where, a, b);\n  return a {sign} b;\n}}"
+        for name, sign in _NOTED.values()
+    },
 }
 
 Lookup = Callable[[Expr], str | None]
@@ -71,89 +77,81 @@ def lower_powers(e: Expr, memo: dict[Expr, Expr]) -> Expr:
     return transform(e, rule, memo)
 
 
-def to_c(e: Expr, name: Lookup, outer: int = 0) -> str:
+def to_c(e: Expr, name: Lookup, outer: int = 0, doubts: Doubts | None = None) -> str:
     """`e` as C. `name(node)` gives the text that stands for a node (a local, a temporary), or None."""
-    text, rank = _print(e, name)
-    return f"({text})" if rank < outer else text
+    return _Printer(name, doubts or Doubts()).text(e, outer)
 
 
-def _print(e: Expr, name: Lookup) -> tuple[str, int]:
-    known = name(e)
-    if known is not None:
-        return known, _PRIMARY
-    if e.op == "const":
-        text = number(e.value) if e.type != BOOLEAN or e.value in (0, 1) else NO_BOOLEAN
-        return text, _UNARY if text.startswith("-") else _PRIMARY
-    if _may_round(e):
-        return f"mdl_exact({_print_binary(e, name)[0]})", _PRIMARY
-    if e.op in RELATIONS and is_doubtful(e):
-        sides, (holds, _) = _list(e.args, name), _print_binary(e, name)
-        return f"mdl_compared(m, {sides}, {holds})", _PRIMARY
-    if e.op in _BINARY:
-        return _print_binary(e, name)
-    if e.op == "start_time":
-        return "m->start_time", _PRIMARY
-    if e.op == "path":
-        return "m->homotopy", _PRIMARY
-    if e.op == "neg":
-        return "-" + to_c(e.args[0], name, _PRIMARY), _UNARY
-    if e.op == "not":
-        return "!" + to_c(e.args[0], name, _PRIMARY), _UNARY
-    if e.op == "if":
-        condition, a, b = e.args
-        return f"{to_c(condition, name, 2)} ? {to_c(a, name, 2)} : {to_c(b, name, 1)}", 1
-    if e.op in ("min", "max"):
-        return f"mdl_{e.op}({_list(e.args, name)})", _PRIMARY
-    if e.op == "^":
-        return f"pow({_list(e.args, name)})", _PRIMARY
-    if e.op == "array":
-        return f"(const double[]){{{_list(e.args, name) or '0.0'}}}", _PRIMARY  # C has no empty arrays
-    if e.op == "call":
-        return _print_call(e, name), _PRIMARY
-    if e.op == "carried":
-        number_of, end, x, order = (to_c(a, name) for a in e.args)
-        return f"m->carried(m, (int){number_of}, {end}, {x}, (int){order})", _PRIMARY
-    if e.op in ("noEvent", "smooth"):
-        return _print(e.args[-1], name)
-    if e.op == "annotated":
-        return _print(e.args[0], name)
-    raise AssertionError(f"no C for {e.op}: {e}")
+class _Printer:
+    """Writes expressions of one body."""
 
+    def __init__(self, name: Lookup, doubts: Doubts):
+        self._name, self._doubts = name, doubts
 
-def is_doubtful(relation: Expr) -> bool:
-    """Whether a sum or product of Integers that may not be exact is compared; where it is not, it is no number."""
-    return any(_may_round(n) for side in relation.args for n in walk(side))
+    def text(self, e: Expr, outer: int = 0) -> str:
+        text, rank = self._print(e)
+        return f"({text})" if rank < outer else text
 
+    def _print(self, e: Expr) -> tuple[str, int]:
+        known = self._name(e)
+        if known is not None:
+            return known, _PRIMARY
+        if e.op == "const":
+            text = number(e.value) if e.type != BOOLEAN or e.value in (0, 1) else NO_BOOLEAN
+            return text, _UNARY if text.startswith("-") else _PRIMARY
+        if may_round(e):
+            return f"mdl_exact({self._print_binary(e)[0]})", _PRIMARY
+        if self._doubts.of(e):
+            return f"{_NOTED[e.op][0]}(m, {self._doubts.place}, {self._list(e.args)})", _PRIMARY
+        if e.op in _BINARY:
+            return self._print_binary(e)
+        if e.op == "start_time":
+            return "m->start_time", _PRIMARY
+        if e.op == "path":
+            return "m->homotopy", _PRIMARY
+        if e.op == "neg":
+            return "-" + self.text(e.args[0], _PRIMARY), _UNARY
+        if e.op == "not":
+            return "!" + self.text(e.args[0], _PRIMARY), _UNARY
+        if e.op == "if":
+            condition, a, b = e.args
+            return f"{self.text(condition, 2)} ? {self.text(a, 2)} : {self.text(b, 1)}", 1
+        if e.op in ("min", "max"):
+            return f"mdl_{e.op}({self._list(e.args)})", _PRIMARY
+        if e.op == "^":
+            return f"pow({self._list(e.args)})", _PRIMARY
+        if e.op == "array":
+            return f"(const double[]){{{self._list(e.args) or '0.0'}}}", _PRIMARY  # C has no empty arrays
+        if e.op == "call":
+            return self._print_call(e), _PRIMARY
+        if e.op == "carried":
+            number_of, end, x, order = (self.text(a) for a in e.args)
+            return f"m->carried(m, (int){number_of}, {end}, {x}, (int){order})", _PRIMARY
+        if e.op in ("noEvent", "smooth"):
+            return self._print(e.args[-1])
+        if e.op == "annotated":
+            return self._print(e.args[0])
+        raise AssertionError(f"no C for {e.op}: {e}")
 
-def _may_round(e: Expr) -> bool:
-    """Whether `e` is a sum or a product of Integers that may reach 2^53. One with a constant grows too slowly to get
-    there but from near by, a product with one of at most 1 in size not at all."""
-    if e.op not in ("+", "-", "*") or any(a.type != INTEGER for a in e.args):
-        return False
-    return not any(a.op == "const" and (e.op != "*" or abs(a.value) <= 1) for a in e.args)
+    def _list(self, args: tuple[Expr, ...]) -> str:
+        return ", ".join(self.text(a) for a in args)
 
+    def _print_binary(self, e: Expr) -> tuple[str, int]:
+        sign, rank = _BINARY[e.op]
+        a, b = e.args
+        # gcc asks for parentheses where && stands in ||, and around comparisons of comparisons
+        left = rank if e.op in ("+", "-", "*", "/", "or", "and") else rank + 2
+        right = rank + 1 if e.op not in ("<", "<=", ">", ">=", "==", "<>") else rank + 2
+        if e.op == "or":
+            left, right = (rank if a.op == "or" else 4), 4
+        return f"{self.text(a, left)} {sign} {self.text(b, right)}", rank
 
-def _list(args: tuple[Expr, ...], name: Lookup) -> str:
-    return ", ".join(to_c(a, name) for a in args)
-
-
-def _print_binary(e: Expr, name: Lookup) -> tuple[str, int]:
-    sign, rank = _BINARY[e.op]
-    a, b = e.args
-    # gcc asks for parentheses where && stands in ||, and around comparisons of comparisons
-    left = rank if e.op in ("+", "-", "*", "/", "or", "and") else rank + 2
-    right = rank + 1 if e.op not in ("<", "<=", ">", ">=", "==", "<>") else rank + 2
-    if e.op == "or":
-        left, right = (rank if a.op == "or" else 4), 4
-    return f"{to_c(a, name, left)} {sign} {to_c(b, name, right)}", rank
-
-
-def _print_call(e: Expr, name: Lookup) -> str:
-    function = str(e.value)
-    if function in BUILTINS:
-        return f"{_FUNCTIONS.get(function, function)}({_list(e.args, name)})"
-    arguments = ", ".join(["m", *(to_c(a, name) for a in e.args)])
-    return f"{function_name(function)}({arguments})"
+    def _print_call(self, e: Expr) -> str:
+        function = str(e.value)
+        if function in BUILTINS:
+            return f"{_FUNCTIONS.get(function, function)}({self._list(e.args)})"
+        arguments = ", ".join(["m", *(self.text(a) for a in e.args)])
+        return f"{function_name(function)}({arguments})"
 
 
 def function_name(function: str, whole: bool = False) -> str:

@@ -13,8 +13,10 @@ from dataclasses import dataclass
 import re
 
 from lacuna.codegen.emit.text.body import Access
-from lacuna.codegen.emit.text.expression import is_trivial, lower_powers, to_c
+from lacuna.codegen.emit.text.doubts import Doubts
+from lacuna.codegen.emit.text.expression import lower_powers, to_c
 from lacuna.codegen.emit.text.names import Names
+from lacuna.codegen.emit.text.uses import Uses
 from lacuna.codegen.symbolic.expr import BOOLEAN, Expr
 from lacuna.codegen.symbolic.leaves import LEAF_OPS
 
@@ -52,7 +54,8 @@ class Rolled:
         self._names, self._access, self._given = names, access, dict(given or {})
         self._places: dict[Expr, str] = {}
         self._levels: dict[Expr, int] = {}
-        self._uses: dict[Expr, int] = {}
+        self._doubts = Doubts()
+        self._uses = Uses(self._doubts)
         self._lowered: dict[Expr, Expr] = {}
         self._groups: dict[tuple[int, str], list[tuple[list[int], str]]] = {}
         self._parts: list[str] = []
@@ -71,15 +74,7 @@ class Rolled:
 
     def plan(self, roots: Iterable[Expr]) -> None:
         """Count uses in the expressions that follow: what is used twice is computed once, into w."""
-        seen: set[Expr] = set()
-        stack = [lower_powers(root, self._lowered) for root in roots]
-        while stack:
-            n = stack.pop()
-            self._uses[n] = self._uses.get(n, 0) + 1
-            if n not in seen:
-                seen.add(n)
-                if n.op not in LEAF_OPS:
-                    stack.extend(n.args)
+        self._uses.plan(lower_powers(root, self._lowered) for root in roots)
 
     def add(self, s: Statement) -> None:
         values = [lower_powers(e, self._lowered) for e in s.values]
@@ -96,7 +91,7 @@ class Rolled:
             return
         for a in e.args:
             self._share(a, root)
-        if e is not root and self._uses.get(e, 0) > 1 and not is_trivial(e):
+        if e is not root and self._uses.is_shared(e):
             place = self.scratch()
             self._write(assignment(place, e, e), [e])
 
@@ -123,7 +118,7 @@ class Rolled:
             is_double = n.type == BOOLEAN and n.op not in ("rel", "tick", "initial", "terminal")
             return f"({hole(place)} != 0.0)" if is_double else hole(place)
 
-        texts = [to_c(value, name) for value in values]
+        texts = [to_c(value, name, doubts=self._doubts) for value in values]
         numbered = re.sub(r"#(\d+)", lambda m: hole(f"[{s.indices[int(m[1])]}]")[1:-1], s.form)
         text = re.sub(r"\{(\d+)\}", lambda m: texts[int(m[1])], numbered)
         self._groups.setdefault((level, text), []).append((found, s.comment))

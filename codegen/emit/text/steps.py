@@ -57,6 +57,7 @@ class StepWriter:
                     self._nonlinear(step)
 
     def note(self, row: Row) -> None:
+        self._body.doubts.row = lambda: self._equation_index(row.source)
         text = comment(row.source, row.text)
         if text != self._last_comment:
             self._body.line(text)
@@ -159,7 +160,12 @@ class StepWriter:
         body.line(f"const double {block}_nominal[{size}] = {{{nominal}}};")
         fields = f".n = {size}, .x = {block}_x, .work = {block}_work, .nominal = {block}_nominal"
         body.line(f"mdl_newton {block} = {{{fields}}};")
+        noted = any(map(body.doubts.inside, expressions_of(step)))
+        if noted:  # at points that the iteration only looks at does not count
+            body.line(f"const int {block}_unsettled = m->unsettled;")
         with body.scope("for (;;)", expressions_of(step)):
+            if noted:
+                body.line(f"m->unsettled = {block}_unsettled;")
             for k, name in enumerate(names):
                 body.line(f"{name} = {block}_x[{k}];")
             for a in step.assignments:

@@ -26,6 +26,7 @@ from tests.codegen.back.expressions import EXPRESSIONS, NAMES, POINTS, SMOOTH, V
 from tests.codegen.generated import write_model
 
 BATCH = 60
+STATE = "#define MDL_SOMEWHERE 1\ntypedef struct { int unsettled; } mdl_data;"  # what relations note is not looked at
 
 
 def value_at(e: ex.Expr, point: tuple[float, ...]) -> float | None:
@@ -36,7 +37,8 @@ def c_function(index: int, e: ex.Expr) -> str:
     body = Body(Names(NAMES), lambda n: f"p[{NAMES.index(str(n.value))}]")
     body.plan([e, e])
     text = body.value(e)
-    return f"double f{index}(const double *p) {{\n  (void)p;\n{body.text()}\n  return {text};\n}}"
+    parts = "mdl_data data, *m = &data;\n  (void)m;\n  (void)p;"
+    return f"double f{index}(const double *p) {{\n  {parts}\n{body.text()}\n  return {text};\n}}"
 
 
 def compiled(expressions: list[ex.Expr], folder: Path) -> ctypes.CDLL:
@@ -44,7 +46,7 @@ def compiled(expressions: list[ex.Expr], folder: Path) -> ctypes.CDLL:
     declarations = [f"double f{k}(const double *p);" for k in range(len(expressions))]
     source = folder / "expressions.c"
     code = "\n".join(functions)
-    source.write_text("\n".join(["#include <math.h>", helpers(code), *declarations, code, ""]))
+    source.write_text("\n".join(["#include <math.h>", STATE, helpers(code), *declarations, code, ""]))
     compile_c(source, folder / "expressions.so")
     return ctypes.CDLL(str(folder / "expressions.so"))
 
