@@ -144,13 +144,25 @@ def _real(value: float | int) -> Expr:
     return const(float(value))
 
 
+def _beside(neutral: Expr, e: Expr) -> Expr:
+    """What is left of an operation with 0 or 1: a Real beside a Real."""
+    return as_real(e) if neutral.type == REAL else e
+
+
+def as_real(e: Expr) -> Expr:
+    """An Integer where a Real is meant: what is left of n*1.0 is one, too."""
+    if e.type != INTEGER:
+        return e
+    return _real(e.value) if e.op == "const" else special("noEvent", e, type=REAL)
+
+
 def add(a: Expr, b: Expr) -> Expr:
     if is_const(a) and is_const(b):
         return const(a.value + b.value)
     if is_const(a, 0):
-        return b
+        return _beside(a, b)
     if is_const(b, 0):
-        return a
+        return _beside(b, a)
     if b.op == "neg":
         return sub(a, b.args[0])
     if a.op == "neg":
@@ -162,9 +174,9 @@ def sub(a: Expr, b: Expr) -> Expr:
     if is_const(a) and is_const(b):
         return const(a.value - b.value)
     if is_const(b, 0):
-        return a
+        return _beside(b, a)
     if is_const(a, 0):
-        return neg(b)
+        return neg(_beside(a, b))
     if a is b:
         return const(0) if a.type == INTEGER else ZERO
     if b.op == "neg":
@@ -188,13 +200,13 @@ def mul(a: Expr, b: Expr) -> Expr:
     if is_const(a, 0) or is_const(b, 0):
         return const(0) if _number_type(a, b) == INTEGER else ZERO
     if is_const(a, 1):
-        return b
+        return _beside(a, b)
     if is_const(b, 1):
-        return a
+        return _beside(b, a)
     if is_const(a, -1):
-        return neg(b)
+        return neg(_beside(a, b))
     if is_const(b, -1):
-        return neg(a)
+        return neg(_beside(b, a))
     if a.op == "neg":
         return neg(mul(a.args[0], b))
     if b.op == "neg":
@@ -208,9 +220,9 @@ def div(a: Expr, b: Expr) -> Expr:
     if is_const(a, 0) and not is_const(b, 0):
         return ZERO
     if is_const(b, 1):
-        return a
+        return as_real(a)
     if is_const(b, -1):
-        return neg(a)
+        return neg(as_real(a))
     if a.op == "neg":
         return neg(div(a.args[0], b))
     return node("/", (a, b))
@@ -218,7 +230,7 @@ def div(a: Expr, b: Expr) -> Expr:
 
 def power(a: Expr, b: Expr) -> Expr:
     if is_const(b, 1):
-        return a
+        return as_real(a)
     if is_const(b, 0):
         return ONE
     if is_const(a) and is_const(b):
@@ -236,7 +248,8 @@ def _minmax(op: str) -> Callable[[Expr, Expr], Expr]:
 
     def build(a: Expr, b: Expr) -> Expr:
         if is_const(a) and is_const(b):
-            return const(pick(a.value, b.value))
+            picked = const(pick(a.value, b.value))
+            return as_real(picked) if REAL in (a.type, b.type) else picked
         return a if a is b else node(op, (a, b), None, _number_type(a, b))
 
     return build
@@ -280,7 +293,8 @@ def logical_not(a: Expr) -> Expr:
 
 def if_else(condition: Expr, then: Expr, otherwise: Expr) -> Expr:
     if condition.op == "const":
-        return then if condition.value else otherwise
+        chosen, other = (then, otherwise) if condition.value else (otherwise, then)
+        return _beside(other, chosen)
     if then is otherwise:
         return then
     kind = then.type if then.type == otherwise.type else REAL

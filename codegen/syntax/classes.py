@@ -152,7 +152,7 @@ class ClassParser(EquationParser):
             elif self.accept("protected"):
                 protected = True
             elif self.kind == "annotation":
-                cls.annotation = self.annotation()
+                self._own_annotation(cls)
                 self.semicolon()
             elif self.kind in ("equation", "algorithm", "initial"):
                 cls.sections.append(self.section())
@@ -162,6 +162,16 @@ class ClassParser(EquationParser):
                 self._element_into(cls, protected)
         self.depth = depth
         self._end_class(cls, start)
+
+    def _own_annotation(self, cls: ast.Class) -> None:
+        """Of two, which one holds would be open."""
+        before, start = cls.annotation, self.at
+        cls.annotation = self.annotation()
+        if before is not None:
+            hint = "write one, at the end of the class"
+            error = Diagnostic("P022", f"{cls.name} has two annotations", self.span_from(start), hint)
+            error.notes.append((before.span, "the first one"))
+            raise error
 
     def _end_class(self, cls: ast.Class, start: int) -> None:
         if self.kind == "eof":

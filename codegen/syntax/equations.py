@@ -172,7 +172,7 @@ class EquationParser(ModificationParser):
         if self.accept("return"):
             return ast.Return(self.span(start))
         target = self.primary()
-        if isinstance(target, ast.Call):
+        if isinstance(target, ast.Call) and self.kind != ":=":
             return ast.Procedure(self.span_from(start), target)
         if not isinstance(target, ast.Ref | ast.Tuple):
             raise Diagnostic("P004", "only a variable can be assigned", self.span(start), "write x := ...;")

@@ -34,5 +34,4 @@ void rt_result_log(rt_result *r, double time, int kind, int index, int direction
 void rt_result_warn(rt_result *r, const char *message);
 void rt_result_flag(rt_result *r, double time, rt_flag_kind kind, int relation, int other);
 
-
 #endif

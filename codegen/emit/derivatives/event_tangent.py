@@ -6,12 +6,11 @@ their rows of the bundle, and each is written just before its variable is.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from lacuna.codegen import flat
 from lacuna.codegen.dae.discrete.events import DiscreteEquation, targets
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.callbacks.discrete import Discrete
+from lacuna.codegen.emit.callbacks.equations import EquationTable
 from lacuna.codegen.emit.derivatives.lanes import Lanes, rows_of
 from lacuna.codegen.emit.text.names import Names
 from lacuna.codegen.symbolic.expr import REAL, Expr, pre, var, walk
@@ -46,11 +45,11 @@ class EventTangent(Discrete):
         prepared: Prepared,
         names: Names,
         rows: dict[str, int],
+        equations: EquationTable,
         gradients: Gradients,
-        equation_index: Callable[[flat.Equation], int],
     ):
-        super().__init__(prepared, names, rows)
-        self._gradients, self._equation_index = gradients, equation_index
+        super().__init__(prepared, names, rows, equations)
+        self._gradients = gradients
 
     def _equation(self, step: DiscreteEquation) -> None:
         if self._type(step.target) == REAL:
@@ -92,6 +91,6 @@ class EventTangent(Discrete):
         """One loop in a scope of its own: coefficients are those of the values as they are here."""
         body = self._body
         with body.scope("", ()):
-            lanes = Lanes(body, self._gradients, rows_of(self._storage), self._equation_index)
+            lanes = Lanes(body, self._gradients, rows_of(self._storage), self._equations.index)
             lanes.write(place, terms)
             lanes.finish()

@@ -61,7 +61,7 @@ class Tangents:
         self._p, self._names, self._equations = prepared, names, equations
         self._storage = prepared.storage
         self.gradients = Gradients()
-        self._event = EventTangent(prepared, names, rows, self.gradients, equations.index)
+        self._event = EventTangent(prepared, names, rows, equations, self.gradients)
 
     def functions(self) -> list[str]:
         return [self._parameters(), self._starts(), self._samples(), self._initial(), self._rhs(), self._derivatives(),

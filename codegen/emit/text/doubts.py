@@ -16,9 +16,11 @@ _TOTAL = ("abs", "sign", "sin", "cos", "tan", "atan", "atan2", "sinh", "cosh", "
 
 
 class Doubts:
-    """Which relations of one body of C are doubtful. `row`, for the message, is asked for where one is: of the equation
-    that is being written, of a function in the table of asserts. Variables of a function may have no value either; those
-    of a model are looked at themselves."""
+    """Which relations of one body of C are doubtful.
+
+    `row`, for the message, is asked for where one is: of the equation that is being written, of a function in the table
+    of asserts. Variables of a function may have no value either; those of a model are looked at themselves.
+    """
 
     def __init__(self, row: Callable[[], int] | None = None, in_function: bool = False):
         self.row, self._in_function = row, in_function

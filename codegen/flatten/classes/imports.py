@@ -23,6 +23,9 @@ def _check_constant(item: ast.Import, library: Library) -> None:
     path = replace(item.path, names=tuple(around), subscripts=(None,) * len(around))
     package = find_class(library, library.root, path)
     found = _component(library, package, name)
+    if found is not None and package.kind != "package":
+        hint = "declare the constant in a package, or write its full name"
+        raise Diagnostic("R075", f"import: {package.name} is a {package.kind}, not a package", item.span, hint)
     if found is None:
         hint = did_you_mean(name, library.members(package), "declare it, or import its package")
         raise Diagnostic("R002", f"import: there is nothing named {name} in {package.path}", item.span, hint)

@@ -227,9 +227,6 @@ def _redeclared(element: Element, present: Element | None) -> Element:
         raise Diagnostic("R032", f"{new.name} redeclares nothing", new.span, hint)
     old = present.declaration
     refuse_redeclaration(new, old, new.span)
-    if new.condition is not None:
-        hint = "the condition of the inherited declaration holds"
-        raise Diagnostic("R032", f"{new.name} is redeclared with a condition (4.4.5)", new.span, hint)
     if old.protected != new.protected:
         hint = "declare both public, or both protected"
         raise Diagnostic("R037", f"{new.name} and what it redeclares differ in visibility", new.span, hint)
@@ -246,6 +243,9 @@ def refuse_redeclaration(new: ast.Component, old: ast.Component, span: Span) -> 
         error = Diagnostic("R033", message, span, "declare it with 'replaceable'" if not why else "remove 'redeclare'")
         error.notes.append((old.span, "declared here"))
         raise error
+    if new.condition is not None:
+        hint = "the condition of the declaration holds"
+        raise Diagnostic("R032", f"{new.name} is redeclared with a condition (4.4.5)", span, hint)
     pairs = [(new.causality, old.causality), (_carried(new), _carried(old))]
     reason = next((f"{one} where it is {other}" for one, other in pairs if one and other and one != other), "")
     if _VARIABILITIES.index(new.variability or old.variability) > _VARIABILITIES.index(old.variability):

@@ -24,6 +24,10 @@ def check_prefixes(declaration: ast.Component, found: Type, elements: ElementsOf
     prefixes = [p for p in written if p]
     if not prefixes:
         return
+    causality = declaration.causality or found.causality
+    if causality == "input" and declaration.variability in ("parameter", "constant"):
+        hint = f"a {declaration.variability} is given a value by a modification; an input may vary"
+        raise Diagnostic("R072", f"{name} is input and {declaration.variability}", span, hint)
     if found.primitive is not None:
         if (declaration.flow or declaration.stream) and found.primitive != REAL:
             raise Diagnostic("R072", f"{name} is {prefixes[-1]} and no Real", span, "only Reals flow")

@@ -103,8 +103,6 @@ def _assignments(item: ast.Equality, scope: Scope) -> list[flat.Statement]:
     statements: list[flat.Statement] = []
     for equation in equalities(item, scope):
         target, value = equation.lhs, equation.rhs
-        if target.op != "var" and value.op == "var" and not isinstance(item.left, ast.Tuple):
-            target, value = value, target
         check_target(target, item.span, scope)
         _refuse_part_of_a_component(target, item.span, scope)
         check_types(target, value, item.span, scope)

@@ -8,7 +8,7 @@ from sys import float_info
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.constants import known
-from lacuna.codegen.flatten.expressions.enumerations import enumeration_of, index_type
+from lacuna.codegen.flatten.expressions.enumerations import enumeration_of, index_type, require_same
 from lacuna.codegen.flatten.expressions.lower import Handler, lower, lower_scalar, need_numbers
 from lacuna.codegen.flatten.names.index_types import literals_of
 from lacuna.codegen.flatten.names.scope import Scope
@@ -122,6 +122,7 @@ def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callab
                 raise Diagnostic("R051", f"{e.function} of two needs scalars of one kind", e.span, hint)
             if arguments[0].type == BOOLEAN:
                 return (ex.logical_and if str(e.function) == "min" else ex.logical_or)(*arguments)
+            require_same(*arguments, scope.context, e.span)
             return join(*arguments)
         values = _array(arguments[0], e)
         bare = isinstance(e.args[0], ast.Comprehension) and not e.args[0].braces
@@ -134,6 +135,9 @@ def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callab
             return fold(ex.logical_and if str(e.function) == "min" else ex.logical_or, list(values.items))
         need_numbers(values, e.span, str(e.function))
         items = list(values.items)
+        if empty is None:
+            for item in items[1:]:
+                require_same(items[0], item, scope.context, e.span)
         if not items and empty is None and isinstance(e.args[0], ast.Comprehension):
             return _extreme(e.args[0], str(e.function) == "min", scope)
         if not items and empty is None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.chosen_texts import are_texts, choose
 from lacuna.codegen.flatten.expressions.constants import is_known, known
+from lacuna.codegen.flatten.expressions.enumerations import require_same
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import (
     Array,
@@ -43,9 +44,19 @@ def chosen_value(condition: Expr, then: Value, otherwise: Value, span: Span, sco
     def pick(a: Expr, b: Expr) -> Expr:
         if (a.type == BOOLEAN) != (b.type == BOOLEAN):
             raise Diagnostic("R021", f"one alternative is {a.type}, the other {b.type}", span, "make them alike")
+        require_same(a, b, scope.context, span)
         return ex.if_else(condition, a, b)
 
     return elementwise(pick, [then, otherwise], span, "alternatives")
+
+
+def beside_unchosen(result: Value, other: Value, span: Span, scope: Scope) -> Value:
+    """`result`, of a type that goes with an alternative that a known condition leaves out (3.6.5)."""
+    if isinstance(result, str | ChosenText) != isinstance(other, str | ChosenText):
+        raise Diagnostic("R021", "one alternative only is a String", span, "make them alike")
+    if not (isinstance(result, Expr) and isinstance(other, Expr)):
+        return result
+    return chosen_value(ex.TRUE, result, other, span, scope)
 
 
 def _go_by_items(then: Value, otherwise: Value) -> bool:

@@ -6,10 +6,11 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.expressions.choices import chosen_value
+from lacuna.codegen.flatten.expressions.choices import beside_unchosen, chosen_value
 from lacuna.codegen.flatten.expressions.chosen_texts import are_texts, compared, joined, joined_arrays
 from lacuna.codegen.flatten.expressions.constants import is_known, known
 from lacuna.codegen.flatten.expressions.enumerations import enumeration_of, require_same
+from lacuna.codegen.flatten.names.arithmetic import ARITHMETIC
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier
 from lacuna.codegen.flatten.names.scope import Scope
@@ -21,7 +22,6 @@ from lacuna.codegen.flatten.names.values import (
     concatenate,
     elementwise,
     holds_records,
-    multiply,
     promote,
     shape_of,
     stack,
@@ -29,6 +29,7 @@ from lacuna.codegen.flatten.names.values import (
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.references import calls_nothing
 
 Handler = Callable[..., Value]
 
@@ -149,7 +150,7 @@ def _binary(e: ast.Binary, scope: Scope) -> Value:
         return _relation(e, left, right, scope)
     for value in (left, right):
         need_numbers(value, e.span, e.op, scope.context)
-    return _ARITHMETIC[e.op](left, right, e.span)
+    return ARITHMETIC[e.op](left, right, e.span)
 
 
 def _relation(e: ast.Binary, left: Value, right: Value, scope: Scope) -> Expr:
@@ -166,56 +167,6 @@ def _relation(e: ast.Binary, left: Value, right: Value, scope: Scope) -> Expr:
         hint = "compare with a tolerance, abs(a - b) < eps, or use Integers"
         raise Diagnostic("R022", f"Reals that vary cannot be compared with {e.op}", e.span, hint)
     return ex.relation(e.op, left, right)
-
-
-def _same_size(function: Callable[[Expr, Expr], Expr], what: str) -> Callable[[Value, Value, Span], Value]:
-    def build(a: Value, b: Value, span: Span) -> Value:
-        if shape_of(a) != shape_of(b):
-            elementwise_name = {"a sum": ".+", "a difference": ".-"}[what]
-            if not (shape_of(a) and shape_of(b)):
-                hint = f"{elementwise_name} works on every element"
-                raise Diagnostic("R042", f"{what} of an array and a scalar", span, hint)
-        return elementwise(function, [a, b], span, what)
-
-    return build
-
-
-def _each(function: Callable[[Expr, Expr], Expr], what: str) -> Callable[[Value, Value, Span], Value]:
-    return lambda a, b, span: elementwise(function, [a, b], span, what)
-
-
-def _divide(a: Value, b: Value, span: Span) -> Value:
-    if isinstance(b, Array):
-        raise Diagnostic("R042", "division by an array", span, "./ divides element by element")
-    return _quotient(a, b, span)
-
-
-def _quotient(a: Value, b: Value, span: Span) -> Value:
-    if any(ex.is_const(d, 0) for d in (b.items if isinstance(b, Array) else (b,))):
-        raise Diagnostic("R046", "division by zero", span, "the denominator is the constant 0")
-    return elementwise(ex.div, [a, b], span, "a quotient")
-
-
-def _power(a: Value, b: Value, span: Span) -> Value:
-    if not (isinstance(a, Array) or isinstance(b, Array)):
-        return ex.power(a, b)
-    whole = isinstance(b, Expr) and b.op == "const" and b.type == INTEGER and b.value >= 0
-    if not whole or len(shape_of(a)) != 2 or a.shape[0] != a.shape[1]:
-        hint = "a square matrix has powers to whole numbers from 0 known at translation; .^ works on every element"
-        raise Diagnostic("R042", "a power of an array", span, hint)
-    size = range(a.shape[0])
-    result: Value = Array(a.shape, tuple(ex.const(float(i == j)) for i in size for j in size))
-    for digit in f"{int(b.value):b}":  # by squares: as many products as b has binary digits, twice at most
-        result = multiply(result, result, span)
-        result = multiply(result, a, span) if digit == "1" else result
-    return result
-
-
-_ARITHMETIC: dict[str, Callable[[Value, Value, Span], Value]] = {
-    "+": _same_size(ex.add, "a sum"), "-": _same_size(ex.sub, "a difference"), "*": multiply, "/": _divide,
-    "^": _power, ".+": _each(ex.add, "a sum"), ".-": _each(ex.sub, "a difference"), ".*": _each(ex.mul, "a product"),
-    "./": _quotient, ".^": _each(ex.power, "a power"),
-}  # fmt: skip
 
 
 def _if(e: ast.IfExpression, scope: Scope) -> Value:
@@ -240,7 +191,20 @@ def _if(e: ast.IfExpression, scope: Scope) -> Value:
             result = chosen_value(condition, then, result, written.span, scope)
     if isinstance(result, Diagnostic):
         raise result
+    taken = [last, *(written for _, written in chosen)]
+    for other in (*(value for _, value in e.branches), e.otherwise):
+        if not any(other is one for one in taken) and calls_nothing(other):
+            result = _beside(result, other, scope)
     return result
+
+
+def _beside(result: Value, other: ast.Expression, scope: Scope) -> Value:
+    """The result of a choice beside an alternative that is not chosen, which may have no value."""
+    try:
+        value = lower(other, scope)
+    except Diagnostic:
+        return result
+    return beside_unchosen(result, value, other.span, scope)
 
 
 NOT_THERE = ("R045", "R046")  # an element outside its array, a division by zero

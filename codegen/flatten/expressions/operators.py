@@ -135,7 +135,7 @@ def _semi_linear(e: ast.Call, scope: Scope) -> Value:
 
     def build(x: Expr, above: Expr, below: Expr) -> Expr:
         chosen = ex.if_else(ex.relation(">=", x, ex.const(0)), ex.mul(above, x), ex.mul(below, x))
-        return chosen if chosen.op == "const" else ex.special("smooth", ex.const(0), chosen, type=REAL)
+        return ex.as_real(chosen) if chosen.op == "const" else ex.special("smooth", ex.const(0), chosen, type=REAL)
 
     return elementwise(build, [x, above, below], e.span, "semiLinear")
 

@@ -8,7 +8,7 @@ from itertools import product
 from math import prod
 
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.symbolic.expr import ZERO, Expr, add, const, mul
+from lacuna.codegen.symbolic.expr import Expr, const
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,26 +158,6 @@ def elementwise(function: Callable[..., Expr], values: list[Value], span: Span, 
     shape = shapes.pop()
     columns = [v.items if isinstance(v, Array) else (v,) * prod(shape) for v in values]
     return Array(shape, tuple(function(*row) for row in zip(*columns, strict=True)))
-
-
-def multiply(a: Value, b: Value, span: Span) -> Value:
-    """a*b of linear algebra: scalar with anything, vector with vector (a scalar), matrix with vector or matrix."""
-    if not (isinstance(a, Array) and isinstance(b, Array)):
-        return elementwise(mul, [a, b], span, "a product")
-    if a.shape[-1] != b.shape[0] or max(len(a.shape), len(b.shape)) > 2:
-        message = f"a product of sizes {shape_text(a.shape)} and {shape_text(b.shape)}"
-        raise Diagnostic("R042", message, span, "inner sizes must agree; .* multiplies element by element")
-    if len(a.shape) == 1 and len(b.shape) == 1:
-        return dot(a.items, b.items)
-    rows = a.rows() if len(a.shape) == 2 else [a]
-    columns = transpose(b).rows() if len(b.shape) == 2 else [b]
-    items = tuple(dot(r.items, c.items) for r in rows for c in columns)
-    shape = tuple(n for n in (a.shape[:-1] + b.shape[1:]))
-    return Array(shape, items)
-
-
-def dot(a: tuple[Expr, ...], b: tuple[Expr, ...]) -> Expr:
-    return fold(add, [mul(x, y) for x, y in zip(a, b, strict=True)]) if a else ZERO
 
 
 def fold(join: Callable[[Expr, Expr], Expr], items: list[Expr]) -> Expr:

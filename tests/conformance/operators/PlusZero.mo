@@ -1,0 +1,6 @@
+// section: 3.7.2, 6.7, 10.3.4, 10.6
+// refuse: R024 5
+model PlusZero "the type of an expression does not depend on its values"
+  parameter Integer k = 3;
+  Integer n = k + 0.0;
+end PlusZero;
