@@ -5,7 +5,7 @@ from __future__ import annotations
 from lacuna.codegen.flatten.connections.overconstrained import is_root, rooted
 from lacuna.codegen.flatten.connections.streams import actual_stream, in_stream
 from lacuna.codegen.flatten.connections.structure import cardinality
-from lacuna.codegen.flatten.expressions import arrays, lower, operators
+from lacuna.codegen.flatten.expressions import arrays, lower, operators, reductions
 from lacuna.codegen.flatten.functions import calls, overloads
 from lacuna.codegen.flatten.functions.kept.code import run
 from lacuna.codegen.flatten.names.context import Lowering
@@ -23,7 +23,13 @@ _OF_CONNECTIONS = {
 }
 LOWERING = Lowering(
     nodes={**lower.OPERATORS, ast.Ref: read, ast.Part: read_part, ast.Call: calls.lower_call, **iterators.RANGES},
-    functions={**_OF_CONNECTIONS, **arrays.FUNCTIONS, **operators.SCALAR_FUNCTIONS, **operators.OPERATORS},
+    functions={
+        **_OF_CONNECTIONS,
+        **arrays.FUNCTIONS,
+        **reductions.FUNCTIONS,
+        **operators.SCALAR_FUNCTIONS,
+        **operators.OPERATORS,
+    },
     results=calls.call_of_model,
     overloaded=overloads.overloaded,
     construct=overloads.construct,

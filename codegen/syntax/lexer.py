@@ -122,6 +122,8 @@ def _unreadable(source: Source, position: int) -> Diagnostic:
         )
     if text.startswith("/*", position):
         return Diagnostic("P002", "this comment has no end", source.span(position, 2), "close it with */")
+    if text.startswith("''", position):
+        return Diagnostic("P002", "this quoted name is empty", source.span(position, 2), "write a name between them")
     if text[position] == "'":
         return Diagnostic("P002", "this quoted name has no end", source.span(position), "close it with '")
     hint = "names and operators use plain ASCII; other letters belong in strings and comments"
@@ -151,7 +153,7 @@ def _check_escapes(source: Source, start: int, word: str) -> None:
     for found in re.finditer(r"\\(.)", word, flags=re.DOTALL):
         if found[1] not in _ESCAPED:
             hint = 'write \\\\ for a backslash; the others are \\n, \\t, \\" and the like'
-            raise Diagnostic("P018", f"{found[0]!r} is no escape sequence", source.span(start + found.start(), 2), hint)
+            raise Diagnostic("P018", f"'{found[0]}' is no escape sequence", source.span(start + found.start(), 2), hint)
 
 
 def string_value(word: str) -> str:

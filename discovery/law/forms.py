@@ -68,7 +68,7 @@ FORMS = (
     Form("motor.saturation", r"^\(X/\(1 \+ \S+Y\^2\) - X\)$", VOLTAGE, ("A/s",)),
     Form("motor.saturation", r"^\(1/\(1 \+ \S+X\^2\) - 1\)$", ("V.s/rad", "N.m/A", "H"), CURRENT),
     Form("saturation", r"^\(X/\(1 \+ \S+abs\(X\)\) - X\)$", ANY, ANY),
-    Form("motor.heating", r"^X\*lag\(X\^2, ", VOLTAGE, CURRENT),
+    Form("motor.heating", r"^X\*warmth\(X\^2, ", VOLTAGE, CURRENT),
     Form("load.power", r"^1/X$", CURRENT, VOLTAGE),
     Form("clamp", BEYOND, CURRENT, VOLTAGE),
     Form("end_stop", BEYOND, FORCE, PLACE),

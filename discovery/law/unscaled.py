@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import math
 import re
 
-_SAID = {"dry": "sign", "onset": "delay"}  # functions that differ in how they are simulated only
-_LINEAR = ("lag", "delay", "onset", "swing")  # in their first argument
+_SAID = {"dry": "sign", "onset": "delay", "warmth": "lag"}  # functions that differ in how they are simulated only
+_LINEAR = ("lag", "warmth", "delay", "onset", "swing")  # in their first argument
 _X = r"(?P<x>\((?:[^()]|\([^()]*\))*\))"  # what is made dimensionless
 _PLAINER = (  # what is smooth for a fit, as it is thought of: (of a term, as it is said)
     (rf"abs\({_X} - (?P<q>\w+)\) \+ (?P=x) - (?P=q)", r"2*max(0, \g<x> - \g<q>)"),

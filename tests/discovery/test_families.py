@@ -115,8 +115,9 @@ def test_one_law_is_found_in_all_elements_of_an_array(leaking: Path, tmp_path: P
     assert law / reference**2 == pytest.approx(-LEAK, rel=0.03)
     text = write_amended(found, tmp_path).read_text()
     assert "k*h[i]) + missing_1[i];" in text
-    assert "missing_1 = {law_h.effort, law_h_2.effort, law_h_3.effort};" in text
-    assert "law_h_3(x1=h[3], c_1=law_h.c_1)" in text
+    assert "missing_1 = {law_h.effort, law_h_of_2.effort, law_h_of_3.effort};" in text
+    assert "law_h_of_3(x1=h[3], c_1=law_h.c_1)" in text
+    assert "law_h_2" not in text  # which a law at h[2] alone is called
 
 
 def test_one_law_is_found_in_all_instances_of_a_class(leaking: Path, tmp_path: Path) -> None:

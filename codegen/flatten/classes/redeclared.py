@@ -8,7 +8,14 @@ from lacuna.codegen.flatten.classes.subtypes import ElementsOf, require_subtype
 from lacuna.codegen.flatten.classes.types import Type, resolve_type, type_of
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier
-from lacuna.codegen.flatten.names.scope import Scope, base_class, base_classes, base_clauses, own_or_inherited
+from lacuna.codegen.flatten.names.scope import (
+    Scope,
+    base_class,
+    base_classes,
+    base_clauses,
+    is_impure,
+    own_or_inherited,
+)
 from lacuna.codegen.flatten.names.views import constrain, modified, view
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax import ast
@@ -70,8 +77,10 @@ def check_redeclared(cls: ast.Class, context: Context, elements: ElementsOf) -> 
             require_subtype(chosen, bound, context, elements, f"the type of {component.name}", component.span)
     for reference, tree in base_clauses(origin):
         for argument in tree.arguments:
+            base = base_class(context.library, cls, reference, tree) if argument.redeclare is not None else None
+            if base is not None:
+                _of_one_kind(argument.name, argument.redeclare, base, context)
             if isinstance(argument.redeclare, ast.Class):
-                base = base_class(context.library, cls, reference, tree)
                 new = view(context.library, argument.redeclare, cls, written=cls.written)
                 _in_place(new, own_or_inherited(context.library, base.origin or base, argument.name), context, elements)
 
@@ -79,6 +88,8 @@ def check_redeclared(cls: ast.Class, context: Context, elements: ElementsOf) -> 
 def check_modifier(cls: ast.Class, modifier: Modifier, context: Context, elements: ElementsOf) -> None:
     """The same for classes that the modification of a component redeclares: protected ones are out of its reach."""
     for name, child in modifier.children.items():
+        if child.redeclare is not None:
+            _of_one_kind(name, child.redeclare, cls, context)
         if not isinstance(child.redeclare, ast.Class) and not (child.children and child.redeclare is None):
             continue
         old = own_or_inherited(context.library, cls.origin or cls, name)
@@ -89,6 +100,18 @@ def check_modifier(cls: ast.Class, modifier: Modifier, context: Context, element
         if isinstance(child.redeclare, ast.Class):
             scope = child.redeclared_in
             _in_place(view(context.library, child.redeclare, scope.cls, written=scope), old, context, elements)
+
+
+def _of_one_kind(name: str, new: ast.Component | ast.Class, cls: ast.Class, context: Context) -> None:
+    """A class stands for a class, a component for a component."""
+    old = own_or_inherited(context.library, cls.origin or cls, name)
+    if isinstance(new, ast.Class) and old is None:
+        hint = f"write redeclare {new.alias.base if new.alias is not None else new.name} {name}"
+        raise Diagnostic("R034", f"{name} of {cls.name} is no class, and is redeclared as a {new.kind}", new.span, hint)
+    if isinstance(new, ast.Component) and old is not None:
+        hint = f"write redeclare {old.kind} {name} = {new.type}"
+        message = f"{name} is a {old.kind} of {cls.name}, and is redeclared as a component"
+        raise Diagnostic("R034", message, new.span, hint)
 
 
 def _nested(nested: ast.Class, cls: ast.Class, context: Context, elements: ElementsOf) -> None:
@@ -118,6 +141,9 @@ def _in_place(new: ast.Class, old: ast.Class | None, context: Context, elements:
     if old is None:
         return
     constrain(context.library, new, old, by_element=False)
+    if is_impure(context.library, new) and not is_impure(context.library, old):
+        hint = f"write impure before function {old.name}"
+        raise Diagnostic("R034", f"{old.name} is redeclared as the impure function {new.name} (12.3)", new.span, hint)
     if _kind(new) != _kind(old) and "class" not in (new.kind, old.kind):
         message = f"the {old.kind} {old.name} is redeclared as a {new.kind} (6.4)"
         raise Diagnostic("R034", message, new.span, f"write redeclare {old.kind} {old.name}")

@@ -4,21 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import prod
-from sys import float_info
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.constants import known
-from lacuna.codegen.flatten.expressions.enumerations import enumeration_of, index_type, require_same
-from lacuna.codegen.flatten.expressions.lower import Handler, lower, lower_scalar, need_numbers
-from lacuna.codegen.flatten.names.index_types import literals_of
+from lacuna.codegen.flatten.expressions.lower import Handler, lower, need_numbers
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import (  # fmt: skip
     Array,
     Value,
     concatenate,
     elementwise,
-    fold,
-    holds_records,
     integers,
     items_of,
     promote,
@@ -28,15 +23,18 @@ from lacuna.codegen.flatten.names.values import (  # fmt: skip
     transpose,
 )
 from lacuna.codegen.symbolic import expr as ex
-from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
+from lacuna.codegen.symbolic.expr import INTEGER, Expr
 from lacuna.codegen.syntax import ast
 
 
-def _arguments(e: ast.Call, scope: Scope, least: int, most: int) -> list[Value]:
-    if e.named or not least <= len(e.args) <= most:
+def arguments_of(e: ast.Call, scope: Scope, least: int, most: int) -> list[Value]:
+    hint = "arguments of built-in functions are given by position"
+    for name, value in e.named.items():
+        raise Diagnostic("R050", f"{e.function} has no argument named {name}", value.span, hint)
+    if not least <= len(e.args) <= most:
         wanted = str(least) if least == most else f"{least} to {most}" if most < 99 else f"at least {least}"
-        message = f"{e.function} takes {wanted} arguments, given {len(e.args) + len(e.named)}"
-        raise Diagnostic("R050", message, e.span, "arguments of built-in functions are given by position")
+        message = f"{e.function} takes {wanted} argument{'' if wanted == '1' else 's'}, given {len(e.args)}"
+        raise Diagnostic("R050", message, e.span, hint)
     return [lower(a, scope) for a in e.args]
 
 
@@ -49,7 +47,7 @@ def _number(value: Value, scope: Scope, span: Span, what: str) -> int:
     return number
 
 
-def _array(value: Value, e: ast.Call, dimensions: tuple[int, ...] = ()) -> Array:
+def array_of(value: Value, e: ast.Call, dimensions: tuple[int, ...] = ()) -> Array:
     if not isinstance(value, Array) or (dimensions and len(value.shape) not in dimensions):
         wanted = " or ".join({1: "a vector", 2: "a matrix"}[d] for d in dimensions) or "an array"
         message = f"{e.function} needs {wanted}, given {shape_text(shape_of(value))}"
@@ -58,19 +56,19 @@ def _array(value: Value, e: ast.Call, dimensions: tuple[int, ...] = ()) -> Array
 
 
 def size_of_array(e: ast.Call, scope: Scope) -> Value:
-    arguments = _arguments(e, scope, 1, 2)
+    arguments = arguments_of(e, scope, 1, 2)
     shape = shape_of(arguments[0])
     if len(arguments) == 1:
         return integers(list(shape))
     dimension = _number(arguments[1], scope, e.span, "the dimension")
     if not 1 <= dimension <= len(shape):
-        message = f"size: dimension {dimension} of {shape_text(shape)}"
-        raise Diagnostic("R051", message, e.span, f"it has {len(shape)} dimensions")
+        hint = f"it has {len(shape)} dimensions"
+        raise Diagnostic("R051", f"size: dimension {dimension} of {shape_text(shape)}", e.span, hint)
     return ex.const(shape[dimension - 1])
 
 
 def _ndims(e: ast.Call, scope: Scope) -> Value:
-    return ex.const(len(shape_of(_arguments(e, scope, 1, 1)[0])))
+    return ex.const(len(shape_of(arguments_of(e, scope, 1, 1)[0])))
 
 
 def _filled(value: Value, sizes: list[Value], e: ast.Call, scope: Scope) -> Array:
@@ -80,29 +78,29 @@ def _filled(value: Value, sizes: list[Value], e: ast.Call, scope: Scope) -> Arra
 
 
 def _fill(e: ast.Call, scope: Scope) -> Value:
-    value, *sizes = _arguments(e, scope, 2, 99)
+    value, *sizes = arguments_of(e, scope, 2, 99)
     return _filled(value, sizes, e, scope)
 
 
 def _constant_array(value: int) -> Callable[[ast.Call, Scope], Value]:
-    return lambda e, scope: _filled(ex.const(value), _arguments(e, scope, 1, 99), e, scope)
+    return lambda e, scope: _filled(ex.const(value), arguments_of(e, scope, 1, 99), e, scope)
 
 
 def _identity(e: ast.Call, scope: Scope) -> Value:
-    n = _number(_arguments(e, scope, 1, 1)[0], scope, e.span, "a size")
+    n = _number(arguments_of(e, scope, 1, 1)[0], scope, e.span, "a size")
     scope.context.spend(n * n, e.span)
     return Array((n, n), tuple(ex.const(int(i == j)) for i in range(n) for j in range(n)))
 
 
 def _diagonal(e: ast.Call, scope: Scope) -> Value:
-    v = _array(_arguments(e, scope, 1, 1)[0], e, (1,)).items
+    v = array_of(arguments_of(e, scope, 1, 1)[0], e, (1,)).items
     scope.context.spend(len(v) ** 2, e.span)
     n = range(len(v))
     return Array((len(v), len(v)), tuple(v[i] if i == j else ex.const(0) for i in n for j in n))
 
 
 def _linspace(e: ast.Call, scope: Scope) -> Value:
-    first, last, count = _arguments(e, scope, 3, 3)
+    first, last, count = arguments_of(e, scope, 3, 3)
     for end in (first, last):
         need_numbers(end, e.span, "linspace")
     n = _number(count, scope, e.span, "the count")
@@ -113,83 +111,9 @@ def _linspace(e: ast.Call, scope: Scope) -> Value:
     return Array((n,), tuple(ex.add(first, ex.mul(ex.const(float(i)), step)) for i in range(n)))
 
 
-def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callable[[ast.Call, Scope], Value]:
-    def build(e: ast.Call, scope: Scope) -> Value:
-        arguments = _arguments(e, scope, 1, 2 if empty is None else 1)
-        if len(arguments) == 2:
-            if not all(isinstance(a, Expr) for a in arguments) or len({a.type == BOOLEAN for a in arguments}) > 1:
-                hint = "of an array: max(x); of two numbers: max(a, b)"
-                raise Diagnostic("R051", f"{e.function} of two needs scalars of one kind", e.span, hint)
-            if arguments[0].type == BOOLEAN:
-                return (ex.logical_and if str(e.function) == "min" else ex.logical_or)(*arguments)
-            require_same(*arguments, scope.context, e.span)
-            return join(*arguments)
-        values = _array(arguments[0], e)
-        bare = isinstance(e.args[0], ast.Comprehension) and not e.args[0].braces
-        own = values.shape[len(e.args[0].iterators) :] if bare else ()
-        if own:
-            return _of_arrays(values, own, join, e)
-        if holds_records(values) and str(e.function) == "sum":
-            return fold(lambda a, b: scope.context.lowering.overloaded("+", [a, b], e.span, scope), list(values.items))
-        if empty is None and values.items and all(isinstance(i, Expr) and i.type == BOOLEAN for i in values.items):
-            return fold(ex.logical_and if str(e.function) == "min" else ex.logical_or, list(values.items))
-        need_numbers(values, e.span, str(e.function))
-        items = list(values.items)
-        if empty is None:
-            for item in items[1:]:
-                require_same(items[0], item, scope.context, e.span)
-        if not items and empty is None and isinstance(e.args[0], ast.Comprehension):
-            return _extreme(e.args[0], str(e.function) == "min", scope)
-        if not items and empty is None:
-            raise Diagnostic("R051", f"{e.function} of an empty array", e.span, "it needs at least one element")
-        return fold(join, items) if items else empty
-
-    return build
-
-
-def _of_arrays(values: Array, own: tuple[int, ...], join: Callable[[Expr, Expr], Expr], e: ast.Call) -> Value:
-    """sum of `e for i in r` where e is an array; other reductions are of scalars (10.3.4.1). Raises R051."""
-    if str(e.function) != "sum":
-        message = f"{e.function} of arrays {shape_text(own)}"
-        raise Diagnostic("R051", message, e.span, f"what {e.function}(e for i in r) goes over is a scalar")
-    need_numbers(values, e.span, "sum")
-    step = prod(own)
-    columns = [list(values.items[k::step]) for k in range(step)]
-    return Array(own, tuple(fold(join, column) if column else ex.const(0) for column in columns))
-
-
-_GREATEST = {INTEGER: 2**31 - 1, REAL: float_info.max}
-
-
-def _extreme(e: ast.Comprehension, greatest: bool, scope: Scope) -> Expr:
-    """min or max of `e for i in r` over nothing: the greatest, or the least, value of the type of e (10.3.4.1)."""
-    first = {i.name: _first_of(i.range, scope) for i in e.iterators}
-    try:
-        body = lower_scalar(e.body, scope.with_locals(**first))
-    except Diagnostic as error:
-        if error.code != "R045":
-            raise
-        body = ex.const(0.0)  # an element of an array that has none: a Real, where nothing else is said
-    if body.type == BOOLEAN:
-        return ex.const(greatest)
-    kind = enumeration_of(body, scope.context)
-    if kind and body.op == "const":
-        return ex.const(type(body.value)(len(literals_of(kind, scope)) if greatest else 1))
-    value = _GREATEST[body.type]
-    return ex.const(value if greatest else -value)
-
-
-def _first_of(written: ast.Expression | None, scope: Scope) -> Value:
-    """A value of the type that an iterator over `written` has."""
-    if isinstance(written, ast.Range):
-        return lower(written.first, scope)
-    kind = index_type(written, scope) if written is not None else None
-    return kind[0] if kind else ex.const(1)
-
-
 def _transpose(e: ast.Call, scope: Scope) -> Value:
     """The first two dimensions change places (10.3.5)."""
-    value = _array(_arguments(e, scope, 1, 1)[0], e)
+    value = array_of(arguments_of(e, scope, 1, 1)[0], e)
     if len(value.shape) < 2:
         hint = "it needs two dimensions: docs/language.md"
         raise Diagnostic("R051", f"transpose of {shape_text(value.shape)}", e.span, hint)
@@ -197,7 +121,7 @@ def _transpose(e: ast.Call, scope: Scope) -> Value:
 
 
 def _cross(e: ast.Call, scope: Scope) -> Value:
-    a, b = (_array(v, e, (1,)).items for v in _arguments(e, scope, 2, 2))
+    a, b = (array_of(v, e, (1,)).items for v in arguments_of(e, scope, 2, 2))
     if len(a) != 3 or len(b) != 3:
         raise Diagnostic("R051", "cross needs two vectors of 3", e.span, "a cross product lives in space")
     pairs = ((1, 2), (2, 0), (0, 1))
@@ -205,7 +129,7 @@ def _cross(e: ast.Call, scope: Scope) -> Value:
 
 
 def _vector(e: ast.Call, scope: Scope) -> Value:
-    value = _arguments(e, scope, 1, 1)[0]
+    value = arguments_of(e, scope, 1, 1)[0]
     if sum(n > 1 for n in shape_of(value)) > 1:
         hint = "at most one dimension is larger than 1 (10.3.2); [A[1, :], A[2, :]] puts rows side by side"
         raise Diagnostic("R051", f"vector of {shape_text(shape_of(value))} elements", e.span, hint)
@@ -214,16 +138,16 @@ def _vector(e: ast.Call, scope: Scope) -> Value:
 
 
 def _scalar(e: ast.Call, scope: Scope) -> Value:
-    items = scalars(_arguments(e, scope, 1, 1)[0])
+    items = scalars(arguments_of(e, scope, 1, 1)[0])
     if len(items) != 1:
         raise Diagnostic("R051", f"scalar of {len(items)} elements", e.span, "it takes an array of one")
     return items[0]
 
 
 def _cat(e: ast.Call, scope: Scope) -> Value:
-    along, *parts = _arguments(e, scope, 2, 99)
+    along, *parts = arguments_of(e, scope, 2, 99)
     dimension = _number(along, scope, e.span, "the dimension")
-    arrays = [_array(p, e) for p in parts]
+    arrays = [array_of(p, e) for p in parts]
     if not 1 <= dimension <= min(len(a.shape) for a in arrays):
         raise Diagnostic("R051", f"cat along dimension {dimension}", e.span, "the arrays have fewer dimensions")
     return concatenate(dimension, arrays, e.span)
@@ -231,20 +155,20 @@ def _cat(e: ast.Call, scope: Scope) -> Value:
 
 def _matrix(e: ast.Call, scope: Scope) -> Value:
     """The first two sizes; those after must be 1."""
-    value = promote(_arguments(e, scope, 1, 1)[0], 2)
+    value = promote(arguments_of(e, scope, 1, 1)[0], 2)
     if any(n != 1 for n in value.shape[2:]):
         raise Diagnostic("R051", f"matrix of {shape_text(value.shape)}", e.span, "sizes after the second are 1")
     return Array(value.shape[:2], value.items)
 
 
 def _outer_product(e: ast.Call, scope: Scope) -> Value:
-    a, b = (_array(v, e, (1,)).items for v in _arguments(e, scope, 2, 2))
+    a, b = (array_of(v, e, (1,)).items for v in arguments_of(e, scope, 2, 2))
     return Array((len(a), len(b)), tuple(ex.mul(x, y) for x in a for y in b))
 
 
 def _symmetric(e: ast.Call, scope: Scope) -> Value:
     """The upper triangle, mirrored."""
-    a = _array(_arguments(e, scope, 1, 1)[0], e, (2,))
+    a = array_of(arguments_of(e, scope, 1, 1)[0], e, (2,))
     n = range(a.shape[0])
     if a.shape[0] != a.shape[1]:
         raise Diagnostic("R051", f"symmetric of {shape_text(a.shape)}", e.span, "it needs a square matrix")
@@ -253,7 +177,7 @@ def _symmetric(e: ast.Call, scope: Scope) -> Value:
 
 def _skew(e: ast.Call, scope: Scope) -> Value:
     """The matrix of a cross product: skew(x)*y = cross(x, y)."""
-    x = _array(_arguments(e, scope, 1, 1)[0], e, (1,)).items
+    x = array_of(arguments_of(e, scope, 1, 1)[0], e, (1,)).items
     if len(x) != 3:
         raise Diagnostic("R051", "skew needs a vector of 3", e.span, "a cross product lives in space")
     zero = ex.const(0)
@@ -270,7 +194,7 @@ _QUOTIENTS = ("div", "mod", "rem")
 
 def map_call(e: ast.Call, scope: Scope, count: int) -> Value:
     """A scalar built-in, element by element where it is given arrays."""
-    arguments = _arguments(e, scope, count, count)
+    arguments = arguments_of(e, scope, count, count)
     name = str(e.function)
     for a, written in zip(arguments, e.args, strict=True):
         need_numbers(a, written.span, name, scope.context)
@@ -296,6 +220,4 @@ FUNCTIONS: dict[str, Handler] = {
     "identity": _identity, "diagonal": _diagonal, "linspace": _linspace, "transpose": _transpose, "cross": _cross,
     "vector": _vector, "scalar": _scalar, "matrix": _matrix, "cat": _cat,
     "outerProduct": _outer_product, "symmetric": _symmetric, "skew": _skew,
-    "sum": _reduction(ex.add, ex.const(0)), "product": _reduction(ex.mul, ex.const(1)),
-    "min": _reduction(ex.minimum, None), "max": _reduction(ex.maximum, None),
 }  # fmt: skip

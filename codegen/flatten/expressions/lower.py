@@ -155,6 +155,8 @@ def _binary(e: ast.Binary, scope: Scope) -> Value:
 
 def _relation(e: ast.Binary, left: Value, right: Value, scope: Scope) -> Expr:
     for value in (left, right):
+        if isinstance(value, str | ChosenText):
+            raise Diagnostic("R021", f"{e.op} between a String and what is none", e.span, "compare like with like")
         if not isinstance(value, Expr):
             raise Diagnostic("R021", f"{e.op} compares scalars", e.span, "compare element by element")
     if (left.type == BOOLEAN) != (right.type == BOOLEAN):
@@ -202,7 +204,9 @@ def _beside(result: Value, other: ast.Expression, scope: Scope) -> Value:
     """The result of a choice beside an alternative that is not chosen, which may have no value."""
     try:
         value = lower(other, scope)
-    except Diagnostic:
+    except Diagnostic as error:
+        if error.code == "R002":
+            raise
         return result
     return beside_unchosen(result, value, other.span, scope)
 

@@ -13,9 +13,9 @@ from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.classes.types import resolve_type
 from lacuna.codegen.flatten.expressions.choices import chosen_value
 from lacuna.codegen.flatten.expressions.constants import is_known, known, variability
-from lacuna.codegen.flatten.expressions.elements import at_index
 from lacuna.codegen.flatten.expressions.enumerations import IndexType, enumeration_of, index_number
 from lacuna.codegen.flatten.expressions.lower import lower
+from lacuna.codegen.flatten.names.elements import at_index
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import (
     Array,

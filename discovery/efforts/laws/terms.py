@@ -31,7 +31,8 @@ def groups(
     (s) those of the samples and of the longest recording."""
     result = [Group(("1",))]
     result += [g for v in found if v.kind == "unheld" for g in _bounded(v)]
-    common = [v for v in found if v.kind not in ("recording", "unheld")]
+    result += [g for v in found if v.kind == "through" for g in _varying(v, interval, duration)]
+    common = [v for v in found if v.kind not in ("recording", "unheld", "through")]
     for v in common:
         result += _remembering(v, common, interval, duration) if v.kind not in ("rate", "above") else []
         result += _late(v, interval, duration) if v.kind == "input" else []
@@ -195,8 +196,7 @@ def _humped(v: Variable, rate: Variable, free: Variable | None, low: float, high
 
 def _remembering(v: Variable, found: Sequence[Variable], interval: float, duration: float) -> list[Group]:
     """A relaxation: storage behind a resistance, a damper behind a spring, a winding around a core, besides what is
-    believed to be stored or a part of it, which is then behind the resistance; all that is faster than the samples or
-    slower than a recording is something else."""
+    believed to be stored or a part of it, then behind the resistance; no faster than samples, no slower than a run."""
     times, relaxing = _times(interval, duration), f"({v.scaled} - lag({v.scaled}, {{t}}))"
     part = [w.scaled for w in found if w.name == f"der({v.name})"]
     return [Group((relaxing, *p), (s,)) for p in ([], part)[: 1 + len(part)] for s in times]
@@ -233,8 +233,11 @@ def _late(v: Variable, interval: float, duration: float) -> list[Group]:
 
 
 def _varying(v: Variable, interval: float, duration: float) -> list[Group]:
-    """A coefficient that varies with what it has carried of late, as a winding's resistance does when it warms."""
-    return [Group((f"{v.scaled}*lag({v.scaled}^2, {{t}})",), (s,)) for s in _times(interval, duration)]
+    """A coefficient that varies with what it has carried of late, as a winding's resistance does when it warms; where
+    that goes through the place itself, the coefficient, too."""
+    warm = f"warmth({v.scaled}^2, {{t}})"
+    texts = [f"{v.scaled}*{warm}", *([warm] if v.kind == "through" else [])]
+    return [Group((text,), (s,)) for text in texts for s in _times(interval, duration)]
 
 
 def _times(interval: float, duration: float) -> list[Shape]:
@@ -282,13 +285,13 @@ def dividing(v: Variable) -> list[Group]:
 
 
 def _together(a: Variable, b: Variable, ranges: dict[str, tuple[float, float]], once: bool) -> list[Group]:
-    """Products: those that are alike both ways once. Friction whose level goes through zero holds nothing there: it has
-    a smooth sign."""
+    """Products: those that are alike both ways once. Friction whose level goes through zero has a smooth sign."""
     x, y = a.scaled, b.scaled
     if b.switch:  # any function of it is the same again
         return [Group((f"{x}*{y}",))] if once else []
-    saturating = Group((f"({x}/(1 + {{q}}*{y}^2) - {x})",), (Shape("q", "1", 1.0, 0.01, 100.0, (), 0.9),))
-    found = [Group((f"{x}*{y}^2",)), Group((f"{x}*abs{y}",)), saturating]
+    part = (f"{y}^2", f"abs{y}")  # a core that saturates; sites that are taken, as an enzyme's
+    wide = Shape("q", "1", 1.0, 0.01, 100.0, (), 0.9)
+    found = [g for p in part for g in (Group((f"{x}*{p}",)), Group((f"({x}/(1 + {{q}}*{p}) - {x})",), (wide,)))]
     rubs = ranges[a.local][0] < 0 < ranges[a.local][1] and a.kind != "rate"
     holds = ranges[b.local][0] > AWAY or ranges[b.local][1] < -AWAY
     found += [Group((f"{a.dry if holds else DRY.format(x=x)}*abs{y}",))] if rubs else []

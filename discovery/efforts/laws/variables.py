@@ -18,6 +18,7 @@ from lacuna.discovery.law.law_terms import Variable
 from lacuna.runtime.model import Variable as ModelVariable
 from lacuna.units import parse_unit
 
+THROUGH = 3  # quantities at a place that an effort changes at once, whose loss may warm it
 APART = 6  # differences of variables at most: of three places with their surroundings all
 SAME = 1e-3  # of their largest value, within which a variable is a polynomial of another one
 DEGREE = 3  # of that polynomial
@@ -73,7 +74,30 @@ def variables(
     believed = {n: u for n, u in units.items() if not added(n)}
     moving = [n for n in states if n in names and np.ptp(np.concatenate([a.values[n] for a in along])) > 0]
     kept += _differences(along, kept, names, moving, believed, location, written)
-    return [*_with_rates(along, kept, states), *_of_recordings(along, known, added, len(kept))]
+    found = [*_with_rates(along, kept, states), *_of_recordings(along, known, added, len(kept))]
+    return [*found, *_through(along, location, believed, answering, len(found))]
+
+
+def _through(
+    along: Sequence[Along], location: str, units: Mapping[str, str], answering: frozenset[str], count: int
+) -> list[Variable]:
+    """What an effort at a place changes at once, of the component there: the current through a resistor, say. No law is
+    of it as it is, but what warms up remembers its square."""
+    place = {location, location.rpartition(".")[0]}
+    known = answering & units.keys() & along[0].values.keys()
+    near = sorted(n for n in known if n.rpartition(".")[0] in place or n in place)
+    found: list[Variable] = []
+    courses: list[np.ndarray] = []
+    for name in near:
+        course = np.concatenate([a.values[name] * np.ones(len(a.time)) for a in along])
+        size = float(np.abs(course).max(initial=0.0))
+        if not np.isfinite(size) or np.ptp(course) <= MOVES * size:
+            continue
+        if any(_says_nothing_new(course / size, c) for c in courses):
+            continue
+        found.append(Variable(f"x{count + len(found) + 1}", name, units[name], "through", float(f"{size:.2g}")))
+        courses.append(course / size)
+    return found[:THROUGH]
 
 
 def _of_recordings(

@@ -10,7 +10,7 @@ from lacuna.discovery.catalogue.catalogue import Effect, EffectParameter
 from lacuna.discovery.efforts.places.sites import Site
 
 Signal = tuple[str, str, str]  # name in the component, expression of the model, unit
-Lag = tuple[str, str, str]  # name of a state of the component, what it follows, its time constant
+Lag = tuple[str, str, str, str]  # name of a state of the component, lag | warmth, what it follows, its time constant
 Late = tuple[str, str, str, str, str]  # a variable, delay | onset, what arrives in it, how late, kept how far apart
 Swing = tuple[str, str, str, str]  # a variable, what it swings behind, its natural frequency and damping ratio
 Bristle = tuple[str, str, str]  # the bend of it, what drags it along, the time it takes to bend at one of that
@@ -31,7 +31,7 @@ class States:
     sticking: Sequence[str] = ()
 
     def declarations(self) -> list[str]:
-        lines = [f'  Real {state} "{followed}, late";' for state, followed, _ in self.lags]
+        lines = [f'  Real {state} "{followed}, late";' for state, _, followed, _ in self.lags]
         lines += [f'  Real {n}, stretch_{n}, behind_{n} "What swings behind {x}";' for n, x, *_ in self.swings]
         lines += [f'  Real {bend} "Bend of bristles along {along}";' for bend, along, _ in self.bristles]
         for n, rate, _ in self.bounds:
@@ -41,8 +41,8 @@ class States:
         return lines + [line for quantity in self.late for line in _kept(*quantity)]
 
     def beginning(self) -> list[str]:
-        """At rest with what they follow, bristles straight."""
-        starts = [f"  {state} = {followed};" for state, followed, _ in self.lags]
+        """At rest with what they follow, cold, bristles straight."""
+        starts = [f"  {state} = {followed if kind == 'lag' else 0};" for state, kind, followed, _ in self.lags]
         starts += [line for n, x, *_ in self.swings for line in (f"  stretch_{n} = 0;", f"  behind_{n} = {x};")]
         starts += [f"  {bend} = 0;" for bend, *_ in self.bristles]
         lines = ["initial equation", *starts] if starts else []
@@ -50,7 +50,7 @@ class States:
 
     def equations(self) -> list[str]:
         lines = [line for quantity in self.late for line in _arrives(*quantity[:4])]
-        lines += [f"  {time}*der({state}) = {followed} - {state};" for state, followed, time in self.lags]
+        lines += [f"  {time}*der({state}) = {followed} - {state};" for state, _, followed, time in self.lags]
         lines += [line for swing in self.swings for line in _swings(*swing)]
         lines += [f"  {t}*der({bend}) = {y} - noEvent(abs({y}))*{bend};" for bend, y, t in self.bristles]
         lines += [line for bound in self.bounds for line in _holds(*bound)]

@@ -33,7 +33,7 @@ from lacuna.discovery.efforts.latent.linear import Linear
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.places.families import families
 from lacuna.discovery.efforts.places.insertion import probe
-from lacuna.discovery.efforts.places.place import ORDER, Place, own_name, told_apart
+from lacuna.discovery.efforts.places.place import ORDER, Place, own_name, size_of, told_apart, weightiest
 from lacuna.discovery.efforts.places.reading import read
 from lacuna.discovery.efforts.places.sites import Site, exchanges, renames, varying
 from lacuna.discovery.fit.machine import Machine, richer
@@ -54,6 +54,7 @@ class Opened:
     sites: list[Site]
     closed: list[tuple[str, str]]
     believed: Prepared  # without inputs, whose equations are as they were written
+    _weights: np.ndarray | None = None  # (sites,) RMS of what the equation of each is about; 0: not known
 
     @cached_property
     def hidden(self) -> frozenset[str]:
@@ -72,6 +73,7 @@ class Opened:
         changes least at once: its law may be of what the others change (friction in proportion to the force of a gas,
         in their sum)."""
         effect = self._effect(along)
+        self._weights = np.array([size_of(own_name(site), along) for site in self.sites])
         direction = _directions(effect)
         groups: list[list[int]] = []
         acting = np.abs(effect).max(axis=(0, 1)) > 0
@@ -132,6 +134,7 @@ class Opened:
         name = changed[int(np.argmax(strength[: len(states)] if changed is states else strength[len(states) :]))]
         location = name.rpartition(".")[0] or name
         order = sorted(group, key=lambda k: (not _touches(self.sites[k], location), ORDER[self.sites[k].kind]))
+        order = weightiest(order, self.sites, self._weights * np.linalg.norm(effect, axis=(0, 1)))
         chosen = order[0]
         several = np.count_nonzero(strength[: len(states)]) > 1
         if own := self._of_several(order) or (several and self._sent_to(order)):
@@ -139,7 +142,7 @@ class Opened:
         sites, reading = tuple(self.sites[k] for k in order), changed is not states
         place = Place(location, sites, (chosen,), self._unit(chosen), reading=reading)
         told = [k for k in order[1:] if self.sites[k].kind == "input"]
-        apart = _other(effect, [chosen, *told, *(k for k in order[1:] if k not in told)])
+        apart = _other(effect, sorted(order, key=lambda k: (k != chosen, k not in told)))
         inputs = [k for k in told if k not in apart]
         return replace(place, other=tuple(self._quantity(place, k, k in inputs) for k in (*apart, *inputs)))
 
@@ -147,9 +150,8 @@ class Opened:
         """The name of a place of several balances: its own, or that of the component that it goes past."""
         sites = [self.sites[k] for k in order]
         past = {s.label for s in sites if s.kind == "branch"}
-        if any(s.kind not in ("branch", "parameter", "input") and s.instance not in past for s in sites):
-            return None
-        return next((s.label for s in sites if s.label in past), sites[0].label)
+        several = all(s.kind in ("branch", "parameter", "input") or s.instance in past for s in sites)
+        return next((s.label for s in sites if s.label in past), sites[0].label) if several else None
 
     def _sent_to(self, order: list[int]) -> str:
         """The component that a signal goes into, where what it sends is all that is told there; "" where it is not."""
@@ -288,13 +290,11 @@ def _openable(case: Case, amendment: Amendment, sites: list[Site], closed: list[
             rigid = isinstance(reason, Diagnostic) and reason.code == "S004"
             closed.append((sites[0].label, RIGID if rigid else str(reason).split(": error", 1)[-1].split("\n")[0]))
             return []
-        middle = len(sites) // 2
-        halves = [_openable(case, amendment, half, closed) for half in (sites[:middle], sites[middle:])]
-        return [site for half in halves for site in half]
+        halves = (sites[: len(sites) // 2], sites[len(sites) // 2 :])
+        return [site for half in halves for site in _openable(case, amendment, half, closed)]
     return sites
 
 
 def _with_probes(amendment: Amendment, sites: list[Site]) -> Amendment:
-    pairs = [probe(site, k) for k, site in enumerate(sites)]
-    attachments = [*amendment.attachments, *(a for a, _ in pairs)]
-    return replace(amendment, attachments=attachments, inputs=tuple(n for _, n in pairs))
+    probes, inputs = zip(*(probe(site, k) for k, site in enumerate(sites)), strict=True) if sites else ((), ())
+    return replace(amendment, attachments=[*amendment.attachments, *probes], inputs=tuple(inputs))

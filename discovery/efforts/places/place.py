@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 import re
 
+import numpy as np
+
+from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.places.sites import Site
 
 ORDER = {"node": 0, "equation": 1, "branch": 2, "edge": 3, "signal": 4, "exchange": 5, "parameter": 6, "input": 7}
@@ -73,6 +77,23 @@ def own_name(site: Site) -> str:
     name = site.label.replace(": ", ".", 1) if site.instance else site.label
     first = re.search(r"\bder\(([\w.]+)\)", site.label)  # its own coordinate, where masses are coupled
     return site.left or (first[1] if first and not site.instance else name.partition("=")[0].strip())
+
+
+def size_of(name: str, along: Sequence[Along]) -> float:
+    """RMS of a variable along runs; 0 where there is none of that name."""
+    courses = [np.atleast_1d(a.values[name]) for a in along if name in a.values]
+    return float(np.sqrt(np.mean(np.concatenate(courses) ** 2))) if courses else 0.0
+
+
+def weightiest(order: list[int], sites: Sequence[Site], weights: np.ndarray) -> list[int]:
+    """Sites alike, of those that are one equation in several instances that first whose value does most: of two
+    resistors in series what is off is sooner in the larger one."""
+    order, kind_of = list(order), [(s.kind, s.span) for s in sites]
+    for kind in dict.fromkeys(kind_of[k] for k in order if sites[k].instance):
+        slots = [n for n, k in enumerate(order) if kind_of[k] == kind]
+        for n, k in zip(slots, sorted((order[n] for n in slots), key=lambda k: -weights[k]), strict=True):
+            order[n] = k
+    return order
 
 
 def _renamed(place: Place, name: str) -> Place:

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.constants import AtRunTime, evaluate
-from lacuna.codegen.flatten.expressions.elements import element, local_value
 from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.functions.interpret import interpret
 from lacuna.codegen.flatten.functions.kept.function_arguments import FunctionArguments, split
@@ -19,6 +18,7 @@ from lacuna.codegen.flatten.functions.library.foreign import foreign_call
 from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
 from lacuna.codegen.flatten.functions.locals import Local, Signature, signature_of
 from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.elements import element, local_value
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Array, Value, indices, scalars, shape_of
 from lacuna.codegen.symbolic import expr as ex

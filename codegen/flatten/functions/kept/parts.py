@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.types import Type
-from lacuna.codegen.flatten.expressions.elements import local_value
 from lacuna.codegen.flatten.functions.locals import signature_of
 from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.elements import local_value
 from lacuna.codegen.flatten.names.values import Array, Record, Value, holds_records, indices, shape_of, shape_text
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 

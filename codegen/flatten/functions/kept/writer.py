@@ -9,13 +9,13 @@ from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.equations.asserts import lower_assert
 from lacuna.codegen.flatten.equations.effects import effect
-from lacuna.codegen.flatten.expressions.elements import local_value
 from lacuna.codegen.flatten.expressions.lower import lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.functions.fitting import blank, declared_sizes, fit, typed, unknown_target
 from lacuna.codegen.flatten.functions.kept.parts import matched, parts, variables_of
 from lacuna.codegen.flatten.functions.kept.stores import decided, deciding, read_what_is_set, stores
 from lacuna.codegen.flatten.functions.kept.whole_calls import called
 from lacuna.codegen.flatten.functions.locals import Local
+from lacuna.codegen.flatten.names.elements import local_value
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Value, scalars, shape_of
 from lacuna.codegen.flatten.references.iterators import iterate
