@@ -67,8 +67,8 @@ static rt_status check_discrete(rt_session *s) {
   if (row >= 0 && s->d->variables[row].type == MDL_INTEGER && isnan(s->data.d[i]))
     return rt_fail(
         s, RT_DOMAIN, s->t, row, NULL,
-        "at time %.9g s %s has no value: no literal has that number, a sum or product on the way to it reaches "
-        "2^53, from where not all Integers are told apart, or a divisor is zero",
+        "at time %.9g s the Integer %s has no value: a sum or product on the way to it reaches 2^53, from where "
+        "not all are told apart, a divisor is zero, or no literal of its enumeration has that number",
         s->t, name);
   return rt_fail(s, RT_NONFINITE, s->t, row, NULL, "at time %.9g s the discrete variable %s is %.9g", s->t, name,
                  s->data.d[i]);

@@ -24,12 +24,15 @@ int rt_check_finite(rt_session *s, const double *x) {
   return 1;
 }
 
-/* Explicit form: x' [n_x] and v [n_v] at (t, x). `v` holds start values of nonlinear blocks on entry. */
+/* Explicit form: x' [n_x] and v [n_v] at (t, x). `v` holds start values of nonlinear blocks on entry. What relations
+ * note counts where v is the session's own: others are points that are only looked at. */
 int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v) {
   if (s->d->n_u) rt_inputs_at(s, t);
   s->result->counters.rhs++;
   s->data.undetermined = s->data.unsettled = 0;
-  return s->d->rhs(&s->data, t, x, xdot, v);
+  int status = s->d->rhs(&s->data, t, x, xdot, v);
+  if (v == s->data.v && !s->data.brief) s->unsettled = s->data.unsettled;
+  return status;
 }
 
 /* x' alone: of v, it is enough to have what the next point starts from. */

@@ -94,6 +94,8 @@ static rt_status write_interpolated(rt_session *s, double t) {
     if (rt_rhs(s, t, r->x, r->xdot, r->v)) return rt_fail_model(s, t, "evaluating outputs");
     rt_status status = rt_branch_row(s, t, r->xdot, r->v);
     if (!status) status = rt_check_values(s, t, r->x, r->xdot, r->v);
+    if (!status && !s->options.unchecked && rt_check_settled(s, s->data.unsettled))
+      status = rt_fail_model(s, t, "computing variables");
     if (status) return status;
   } else {
     rt_inputs_at(s, t);

@@ -6,7 +6,7 @@ is no root, a limited gain throws each step to the other limit, the Jacobian is 
 
 - one unknown: the interval around the start value is doubled until the residual changes its sign, on the nearer side
   first, and the root is bracketed by Newton's steps and bisection. A continuous residual that changes its sign has a
-  root; where it jumps over zero there is none, and the block fails.
+  root; where it jumps over zero, or through infinity, there is none, and the block fails.
 - several: the root of F(x) = (1 - s) F(start) is followed from s = 0 to 1 (Newton homotopy; Allgower & Georg,
   Introduction to Numerical Continuation Methods, 2003), with steps of s that halve where Newton's method does not
   follow and double where it does. Where that does not leave the start (a Jacobian that is singular or not finite
@@ -30,6 +30,7 @@ typedef struct {
   double norm;
   double last, ratio; /* size of Newton's last step, and the largest of a step to the one before */
   double low, high, low_r, high_r, length; /* one unknown: what has been searched, or the bracket; residuals there */
+  double edge;                             /* one unknown: the largest residual at the ends of the first bracket */
   double path, reached, stride;            /* several: s, the last s that was reached, the step */
 } mdl_newton;
 
@@ -91,6 +92,7 @@ static void mdl_newton_search(mdl_newton *s, double r) {
     if (k % 2) s->low = s->high, s->low_r = s->high_r, s->high = s->x[0], s->high_r = r;
     else s->high = s->low, s->high_r = s->low_r, s->low = s->x[0], s->low_r = r;
     s->length = INFINITY;
+    s->edge = fmax(fabs(s->low_r), fabs(s->high_r));
     s->iterations = 0;
     s->phase = MDL_BRACKET;
     return;
@@ -102,12 +104,13 @@ static void mdl_newton_search(mdl_newton *s, double r) {
   s->x[0] = start + (k % 2 ? -size : size) * ldexp(1.0, k / 2);
 }
 
-/* Halve the bracket where Newton's step leaves it, or three of them have not halved it. */
+/* Halve the bracket where Newton's step leaves it, or three of them have not halved it. A residual that has grown
+ * towards its end is that of a pole. */
 static void mdl_newton_narrow(mdl_newton *s, double step) {
   const double next = s->x[0] - step, length = s->high - s->low;
   const int creeps = s->iterations % 3 == 0 && length > 0.5 * s->length;
   if (s->iterations % 3 == 0) s->length = length;
-  if (mdl_newton_is_small(s, &step)) s->phase = MDL_SOLVED;
+  if (mdl_newton_is_small(s, &step)) s->phase = s->norm <= s->edge * s->edge ? MDL_SOLVED : MDL_FAILED;
   else if (++s->iterations > 4 * MDL_ITERATIONS) s->phase = MDL_FAILED;
   const int inside = next > s->low && next < s->high;
   s->x[0] = s->phase == MDL_SOLVED || (inside && !creeps) ? next : s->low + 0.5 * length;
@@ -177,6 +180,7 @@ static int mdl_newton_look(mdl_newton *s, double *r) {
     return 1;
   case MDL_BRACKET:
     *(r[0] * s->low_r > 0.0 ? &s->low : &s->high) = s->x[0];
+    s->norm = norm;
     return 0;
   case MDL_FOLLOW:
     if (s->path == 0.0) {

@@ -8,6 +8,7 @@ from lacuna.codegen.emit.text.doubts import Doubts, may_round
 from lacuna.codegen.symbolic.expr import (
     BOOLEAN,
     BUILTINS,
+    INTEGER,
     Expr,
     call,
     const,
@@ -24,6 +25,7 @@ _UNARY, _PRIMARY = 8, 9
 _FUNCTIONS = {
     "abs": "fabs", "integer": "floor", "sign": "mdl_sign", "mod": "mdl_mod", "rem": "mdl_rem", "div": "mdl_div",
 }  # fmt: skip
+_OF_WHOLE = {"mod": "mdl_whole_mod", "rem": "fmod", "div": "mdl_whole_div"}
 _NOTED = {
     "<": ("mdl_lt", "<"), "<=": ("mdl_le", "<="), ">": ("mdl_gt", ">"), ">=": ("mdl_ge", ">="),
     "==": ("mdl_eq", "=="), "<>": ("mdl_ne", "!="),
@@ -36,6 +38,10 @@ HELPERS = {
     "mdl_mod": "static inline double mdl_mod(double a, double b) { return a - floor(a / b) * b; }",
     "mdl_rem": "static inline double mdl_rem(double a, double b) { return a - trunc(a / b) * b; }",
     "mdl_div": "static inline double mdl_div(double a, double b) { return trunc(a / b); }",
+    # of Integers, whose quotient need not be exact
+    "mdl_whole_mod": "static inline double mdl_whole_mod(double a, double b) {\n"
+    "  const double rest = fmod(a, b);\n  return rest != 0.0 && (rest < 0.0) != (b < 0.0) ? rest + b : rest;\n}",
+    "mdl_whole_div": "static inline double mdl_whole_div(double a, double b) { return (a - fmod(a, b)) / b; }",
     # of Integers: no number where the result reaches 2^53 and may not be exact, so that nothing is made of it
     "mdl_exact": "static inline double mdl_exact(double result) { return fabs(result) >= 0x1p53 ? NAN : result; }",
     # of sides that may have no value, which would decide nonetheless: noted, for a run that accepts the point to end
@@ -149,7 +155,8 @@ class _Printer:
     def _print_call(self, e: Expr) -> str:
         function = str(e.value)
         if function in BUILTINS:
-            return f"{_FUNCTIONS.get(function, function)}({self._list(e.args)})"
+            names = _OF_WHOLE if all(a.type == INTEGER for a in e.args) else _FUNCTIONS
+            return f"{names.get(function) or _FUNCTIONS.get(function, function)}({self._list(e.args)})"
         arguments = ", ".join(["m", *(self.text(a) for a in e.args)])
         return f"{function_name(function)}({arguments})"
 

@@ -41,10 +41,7 @@ def variables(
     names = [n for n, v in along[0].values.items() if np.ndim(v) == 1 and (n in units or n.startswith("der("))]
     names = [n for n in names if not n.startswith(OWN) and (n not in answering or n.startswith("der("))]
     names = [n for n in names if not added(n)]
-    largest: dict[str, float] = {}
-    for n in names:
-        unit = units.get(n, n)
-        largest[unit] = max(largest.get(unit, 0.0), max(float(np.abs(a.values[n]).max()) for a in along))
+    largest = _largest(along, names, units)
     order = {s: k for k, s in enumerate(states)}
 
     def rank(name: str) -> tuple:
@@ -76,6 +73,15 @@ def variables(
     kept += _differences(along, kept, names, moving, believed, location, written)
     found = [*_with_rates(along, kept, states), *_of_recordings(along, known, added, len(kept))]
     return [*found, *_through(along, location, believed, answering, len(found))]
+
+
+def _largest(along: Sequence[Along], names: Sequence[str], units: Mapping[str, str]) -> dict[str, float]:
+    """The largest values, by unit; by name where there is none."""
+    largest: dict[str, float] = {}
+    for n in names:
+        unit = units.get(n, n)
+        largest[unit] = max(largest.get(unit, 0.0), max(float(np.abs(a.values[n]).max()) for a in along))
+    return largest
 
 
 def _through(
