@@ -43,6 +43,13 @@ FUNCTION = "function f input Real x; output Real y; algorithm if {0} then y := 1
          "y = if sqrt(x) > 0.1 then 1 else 2; end when;", 1),
         ("Real x = time; discrete Real y(start=0); equation when sample(0.1, 0.1) then "
          "y = if sqrt(x) > 0.1 then 1 else 2; end when;", 0),
+        ("Real x = 0.5 - time, y = noEvent(if sqrt(x) > 0 then 1 else 2);", 1),
+        ("Real x(start=0.5, fixed=true), z(start=0, fixed=true); equation der(x) = -1; "
+         "der(z) = noEvent(if sqrt(x) > 0 then 1 else 2);", 1),
+        (FUNCTION.format("x > 0") + "Real x(start=0.5, fixed=true), z(start=0, fixed=true); equation der(x) = -1; "
+         "der(z) = f(sqrt(x));", 1),
+        ("Real x(start=1, fixed=true), z(start=0, fixed=true); equation der(x) = -0.5; "
+         "der(z) = noEvent(if sqrt(x) > 0.8 then 1 else 2);", 0),
         ("Real x; equation x^3 + (if noEvent(sqrt(x + 0.1) > 0.2) then 1 else 2) = 1 + (1 + time)^3;", 0),
     ],
 )  # fmt: skip

@@ -290,3 +290,11 @@ def test_a_bench_copied_out_is_explained(style: str, shared: Path, tmp_path: Pat
     assert [(f["effect"], f["location"]) for f in found.findings] == [("friction.coulomb", "shaft")]
     compile_model(str(found.amended))
     assert found.report.is_file()
+
+
+def test_a_copy_of_a_recording_judges_nothing(tmp_path: Path) -> None:
+    """The same samples under another name counted as unseen."""
+    tank_case(tmp_path)
+    shutil.copy(tmp_path / "r1.csv", tmp_path / "r2.csv")
+    with pytest.raises(CaseError, match="r1.csv and r2.csv hold the same samples; none judges"):
+        load(tmp_path)
