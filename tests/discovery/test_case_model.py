@@ -296,5 +296,5 @@ def test_a_copy_of_a_recording_judges_nothing(tmp_path: Path) -> None:
     """The same samples under another name counted as unseen."""
     tank_case(tmp_path)
     shutil.copy(tmp_path / "r1.csv", tmp_path / "r2.csv")
-    with pytest.raises(CaseError, match="r1.csv and r2.csv hold the same samples; none judges"):
+    with pytest.raises(CaseError, match=r"r1\.csv and r2\.csv hold the same samples; none judges"):
         load(tmp_path)
