@@ -99,7 +99,7 @@ def _number(name: str, value: Any) -> float:
 
 def uncovered(given: Mapping[str, Input], start: float, stop: float) -> list[str]:
     """A warning for each input whose samples begin later than the run from `start` to `stop` (s) does, rounding aside,
-    or end earlier by more than their spacing: there a sample is held."""
+    or end earlier by more than their spacing: there a sample is held. Raises UserError where none is inside."""
     said = []
     for name, value in given.items():
         if not isinstance(value, RecordedInput):
@@ -107,7 +107,9 @@ def uncovered(given: Mapping[str, Input], start: float, stop: float) -> list[str
         first, last, spacing = float(value.time[0]), float(value.time[-1]), np.diff(value.time)
         late = first - start > ROUNDING * max(abs(first), abs(start), stop - start)
         if late or stop - last > spacing[-1:].sum():
-            span = f"samples from {first:g} to {last:g} s, a run from {start:g} to {stop:g} s"
+            span = f"samples from {first:.9g} to {last:.9g} s, a run from {start:.9g} to {stop:.9g} s"
+            if first > stop or last < start:
+                raise UserError(f"input {name}: {span}: none is in the run; begin it there by --start")
             said.append(f"warning: input {name}: {span}; outside of them the first or last value is held")
     return said
 

@@ -65,6 +65,15 @@ def test_one_sample_is_held_with_a_word(tmp_path: Path) -> None:
     assert "samples from 0.5 to 0.5 s" in result.warnings[0]
 
 
+def test_samples_outside_of_the_run_drive_nothing(tmp_path: Path) -> None:
+    """Their first value was held all along, with a warning."""
+    (tmp_path / "epoch.csv").write_text("time,u\n1700000000,0\n1700000001,2\n", encoding="utf-8")
+    with pytest.raises(
+        lacuna.UserError, match=r"samples from 1.7e\+09 .* none is in the run; begin it there by --start"
+    ):
+        lacuna.load(turn(tmp_path, "rpm")).simulate(inputs={"u": lacuna.recorded(tmp_path / "epoch.csv", "u")})
+
+
 def test_an_input_is_not_driven_by_another_quantity(tmp_path: Path) -> None:
     given = lacuna.recorded(recording(tmp_path, "i [mA]"), "i")
     with pytest.raises(lacuna.UserError, match=r"r\.csv: i cannot drive u: A is no rad/s"):
