@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import combinations
 import math
 from pathlib import Path
 import re
@@ -184,7 +183,6 @@ def load(folder: str | Path, libraries: Sequence[str | Path] = ()) -> Case:
     case.files = (path, *own_model, *(folder / name for name in (*names["fit"], *names["validate"])))
     case.fit = [read_recording(folder / name, signals) for name in names["fit"]]
     case.validate = [read_recording(folder / name, signals) for name in names["validate"]]
-    _no_copies(path, [*case.fit, *case.validate])
     return case
 
 
@@ -208,17 +206,6 @@ def _distinct(path: Path, files: list[str]) -> None:
         if other:
             raise CaseError(f"{path}: {other} and {file} have the same name; give one of the two another")
         first[Path(file).name] = file
-
-
-def _no_copies(path: Path, recordings: list[Recording]) -> None:
-    """Nor does the same recording in two files. Raises CaseError."""
-    for one, other in combinations(recordings, 2):
-        alike = len(one.time) == len(other.time) and one.columns.keys() == other.columns.keys()
-        pairs = [(one.columns[c], other.columns[c]) for c in one.columns] if alike else []
-        if alike and all(np.array_equal(a, b, equal_nan=True) for a, b in [(one.time, other.time), *pairs]):
-            raise CaseError(
-                f"{path}: {one.name} and {other.name} hold the same samples; none judges what was fitted to it"
-            )
 
 
 def _floats(values: dict) -> dict[str, float]:

@@ -8,6 +8,7 @@ sensor may have no noise there.
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, replace
+from itertools import combinations
 
 import numpy as np
 
@@ -45,7 +46,7 @@ class Problem:
 def check_case(case: Case) -> list[Problem]:
     """Every problem of every recording of the case, fatal ones first."""
     problems = [p for r in case.fit + case.validate for p in check_recording(r, case.signals)]
-    problems += _constant(case)
+    problems += _constant(case) + _copies(case)
     return sorted(problems, key=lambda p: not p.fatal)
 
 
@@ -63,6 +64,19 @@ def check_recording(recording: Recording, signals: dict[str, Signal]) -> list[Pr
             problems += _clipped(own, signal, values[seen]) or _frozen(own, signal, values[seen])
             problems += _outliers(recording, signal, values)
     return problems
+
+
+def _copies(case: Case) -> list[Problem]:
+    """A file that holds the samples of another one: what it judges was fitted to it, or it counts twice."""
+    found = []
+    for one, other in combinations(case.fit + case.validate, 2):
+        pairs = [(one.time, other.time), *((one.columns[c], other.columns[c]) for c in one.columns)]
+        if all(np.array_equal(a, b, equal_nan=True) for a, b in pairs):
+            judges = any(other is r for r in case.validate)
+            said = "what it judges was fitted to it" if judges else "they count twice"
+            text = f"it holds the samples of {one.name}: {said}"
+            found.append(Problem("copy", other.name, "", None, text, False))
+    return found
 
 
 def _check_time(recording: Recording) -> list[Problem]:

@@ -271,8 +271,8 @@ class _Writer:
 def _components(attachment: Attachment) -> list[str]:
     """Those of an attachment: one, or one for each phase or member of a family, of which the first says the numbers."""
     members = range(2, 1 + len(attachment.site.members)) if attachment.site else ()
-    further = [*(line.phase for line in attachment.lines[1:]), *members]
-    return [attachment.component, *(f"{attachment.component}_of_{which}" for which in further)]
+    further = [*(line.phase for line in attachment.lines[1:]), *(f"of_{number}" for number in members)]
+    return [attachment.component, *(f"{attachment.component}_{which}" for which in further)]
 
 
 def _read_by(attachment: Attachment, member: int) -> list[str]:

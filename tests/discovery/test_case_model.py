@@ -17,6 +17,7 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.discovery.case import case_keys
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.case.problem import CaseError
+from lacuna.discovery.case.recordings_check import check_case
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.explain import explain, judge_written, write_amended
@@ -292,9 +293,10 @@ def test_a_bench_copied_out_is_explained(style: str, shared: Path, tmp_path: Pat
     assert found.report.is_file()
 
 
-def test_a_copy_of_a_recording_judges_nothing(tmp_path: Path) -> None:
-    """The same samples under another name counted as unseen."""
+def test_a_copy_of_a_recording_is_told(tmp_path: Path) -> None:
+    """The same samples under another name counted as unseen without a word."""
     tank_case(tmp_path)
+    assert not [p for p in check_case(load(tmp_path)) if p.kind == "copy"]
     shutil.copy(tmp_path / "r1.csv", tmp_path / "r2.csv")
-    with pytest.raises(CaseError, match=r"r1\.csv and r2\.csv hold the same samples; none judges"):
-        load(tmp_path)
+    (found,) = [p for p in check_case(load(tmp_path)) if p.kind == "copy"]
+    assert str(found) == "r2.csv: it holds the samples of r1.csv: what it judges was fitted to it"

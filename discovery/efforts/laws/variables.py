@@ -18,7 +18,6 @@ from lacuna.discovery.law.law_terms import Variable
 from lacuna.runtime.model import Variable as ModelVariable
 from lacuna.units import parse_unit
 
-THROUGH = 3  # quantities at a place that an effort changes at once, whose loss may warm it
 APART = 6  # differences of variables at most: of three places with their surroundings all
 SAME = 1e-3  # of their largest value, within which a variable is a polynomial of another one
 DEGREE = 3  # of that polynomial
@@ -103,7 +102,7 @@ def _through(
             continue
         found.append(Variable(f"x{count + len(found) + 1}", name, units[name], "through", float(f"{size:.2g}")))
         courses.append(course / size)
-    return found[:THROUGH]
+    return found[: APART // 2]
 
 
 def _of_recordings(
