@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Literal, get_args
 
+from lacuna.errors import UserError
 from lacuna.models import load
 from lacuna.notebook import page, table
 from lacuna.sources import Units
@@ -59,6 +60,8 @@ def export_fmu(
     from lacuna.fmi.export import FmuRequest
     from lacuna.fmi.export import export_fmu as export
 
+    if type not in get_args(FmuType):
+        raise UserError(f"an FMU is of type {' or '.join(get_args(FmuType))}, not {type!r}")
     loaded = load(
         model, class_name=class_name, libraries=libraries, parameters=parameters, units=units, data=data,
         allow_external=allow_external,

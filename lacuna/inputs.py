@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -73,6 +73,16 @@ def as_inputs(given: Mapping[str, Input], variables: Mapping[str, Variable]) -> 
     UserError where they are another quantity."""
     refuse_truth(given, variables)
     return {name: _one(name, value, variables) for name, value in given.items()}
+
+
+def check_kinds(**given: Any) -> None:
+    """Raises UserError for what is neither a mapping from names nor, of `outputs` and `sensitivities`, a list of them."""
+    for what, value in given.items():
+        listed = what in ("outputs", "sensitivities")
+        right = isinstance(value, Mapping) if not listed else isinstance(value, Iterable) and not isinstance(value, str)
+        if value is not None and not (right and all(isinstance(name, str) for name in value)):
+            wanted = "a list of names" if listed else "values by name, as {'R': 2.0}"
+            raise UserError(f"{what} is {wanted}, not {str(value)[:40]}")
 
 
 def refuse_truth(given: Mapping[str, Any], variables: Mapping[str, Variable]) -> None:
@@ -146,8 +156,13 @@ def _inferred_factor(value: Measured, declared: str) -> float | None:
 
 def _one(name: str, value: Input, variables: Mapping[str, Variable]) -> RecordedInput | float:
     if isinstance(value, tuple):
-        times, values = value
-        return RecordedInput(np.asarray(times, dtype=float), np.asarray(values, dtype=float))
+        try:
+            times, values = (np.asarray(part, dtype=float) for part in value)
+        except (TypeError, ValueError):
+            raise UserError(
+                f"the input {name} is a number, a recording, or (times, values): two lists of numbers"
+            ) from None
+        return RecordedInput(times, values)
     if isinstance(value, Measured) and value.inferred and name in variables:
         factor = _inferred_factor(value, variables[name].unit) or 1.0
         return RecordedInput(value.time, factor * value.values, value.interpolation)
@@ -157,4 +172,4 @@ def _one(name: str, value: Input, variables: Mapping[str, Variable]) -> Recorded
         except UnitError as error:
             raise UserError(f"{value.source} cannot drive {name}: {error}") from None
         return RecordedInput(value.time, factor * value.values, value.interpolation)
-    return value if isinstance(value, RecordedInput) else float(value)
+    return value if isinstance(value, RecordedInput) else _number(name, value)

@@ -17,7 +17,7 @@ from lacuna.codegen.flatten import flatten
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.structure.report import dump as dump_structure
 from lacuna.errors import UserError
-from lacuna.inputs import Input, as_inputs, as_numbers, assumed, uncovered
+from lacuna.inputs import Input, as_inputs, as_numbers, assumed, check_kinds, uncovered
 from lacuna.notebook import page, table
 from lacuna.progress import Progress, silent, watching
 from lacuna.results import IncompleteRun, Result
@@ -215,13 +215,13 @@ class Model:
         `parameters` replace declared values, `initial` the start values of states. Rows come every `interval` (s; by
         default the model's own, else 500 over the run) and at the stop, with `event_rows` also around each event.
         `outputs` restricts what is recorded. `rtol`: relative tolerance (default: the model's, else 1e-6); `atol`:
-        absolute, for each unit of a variable's nominal value (default 0.01 rtol). `step` (s) is that of the fixed-step
-        solvers; without `locate_events` they take events at its end. `sensitivities` names parameters, and states for
-        their initial values, by which all outputs are differentiated (ida and dopri5): see `Result.sensitivity`.
-        `progress` is told the share of the time simulated, about ten times a second; what it raises ends the run.
+        absolute, for each unit of a nominal value (0.01 rtol). `step` (s): of fixed-step solvers; without `locate_events`
+        they take events at its end. `sensitivities` names parameters and states (their initial values) by which outputs
+        are differentiated (ida, dopri5). `progress` is told the share of the time, and may end the run by raising.
 
         Raises UserError or SimulationError for what cannot be used, IncompleteRun (with its rows) where it ends early.
         """
+        check_kinds(inputs=inputs, parameters=parameters, initial=initial, outputs=outputs, sensitivities=sensitivities)
         _refuse_settings(solver, start=start, stop=stop, rtol=rtol, atol=atol, step=step, interval=interval)
         model, outputs = self.with_parameters(parameters or {}), outputs and list(dict.fromkeys(outputs))
         begin, end = model._span(start, stop)
@@ -274,5 +274,7 @@ def _loaded(source: Source, fixed: Mapping[str, float], values: Mapping[str, flo
 def _refuse_settings(solver: str, **given: float | None) -> None:
     """Raises UserError for what is no number, such as "2", and for a step that the solver does not take."""
     as_numbers({name: value for name, value in given.items() if value is not None}, {})
+    if not isinstance(solver, str):
+        raise UserError(f"solver is one of {', '.join((*runtime.ADAPTIVE, *runtime.FIXED_STEP))}, not {solver!r}")
     if given["step"] is not None and solver in runtime.ADAPTIVE:
         raise UserError(f"{solver} chooses its steps itself: a step is for {' and '.join(runtime.FIXED_STEP)}")

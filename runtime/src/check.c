@@ -14,8 +14,16 @@ static const double impulse = 1e-6; /* of a size: far above the 1e-10 to which t
 static const double bend = 8;       /* most that a divisor may change by where it is zero, of what it does elsewhere */
 
 rt_status rt_check_parameters(rt_session *s) {
-  if (rt_finite(s->d->n_p, s->data.p) || !rt_blame(s, MDL_PARAMETER, NULL, NULL)) return RT_OK;
-  return rt_fail_model(s, s->start, "computing parameters");
+  if (!rt_finite(s->d->n_p, s->data.p) && rt_blame(s, MDL_PARAMETER, NULL, NULL))
+    return rt_fail_model(s, s->start, "computing parameters");
+  for (int i = 0; i < s->d->n_variables; i++) {
+    const mdl_variable *v = &s->d->variables[i];
+    if (v->storage != MDL_PARAMETER || v->type != MDL_INTEGER || !(fabs(s->data.p[v->index]) > RT_LARGEST_INTEGER))
+      continue;
+    return rt_fail(s, RT_DOMAIN, s->start, i, NULL, "the Integer %s is %.17g: from 2^53 on not all are told apart",
+                   v->name, s->data.p[v->index]);
+  }
+  return RT_OK;
 }
 
 /* Finite numbers in v [n_v], at a point at time t. */

@@ -20,7 +20,8 @@ def test_a_pole_is_no_root(tmp_path: Path, equation: str) -> None:
 
 @pytest.mark.parametrize(
     ("equation", "y"),
-    [("1/y = 1 + time", 0.5), ("1/y + y = 2.5 + 0*time", 0.5), ("exp(10*y) = 1e4 + 0*time", 0.9210340371976184),
+    [("1/y = 1 + time", 0.5), ("1/y = -time - 0.001", -1 / 1.001), ("2/(y - 0.5) = 10*time + 10", 0.6),
+     ("1/y + y = 2.5 + 0*time", 0.5), ("exp(10*y) = 1e4 + 0*time", 0.9210340371976184),
      ("atan(y - 300) = 0.5*time", 300.5463024898438), ("y^3 = 27 + 0*time", 3.0)],
 )  # fmt: skip
 def test_roots_are_found_as_before(tmp_path: Path, equation: str, y: float) -> None:
@@ -28,6 +29,12 @@ def test_roots_are_found_as_before(tmp_path: Path, equation: str, y: float) -> N
     assert status == 0, said
     last = (tmp_path / "out" / "M.csv").read_text().splitlines()[-1]
     assert float(last.split(",")[1]) == pytest.approx(y, rel=1e-8)
+
+
+def test_an_integer_parameter_is_one(tmp_path: Path) -> None:
+    """What is computed from Reals passed the limit of those that are given."""
+    status, said = simulated(tmp_path, "model M parameter Real p = 1e300; parameter Integer i = integer(p); end M;")
+    assert (status, "from 2^53 on" in said) == (1, True), said
 
 
 @pytest.mark.parametrize("a", [-9007199254740991, 9007199254740991, -9007199254740989, 12, -12])

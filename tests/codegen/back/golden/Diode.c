@@ -180,7 +180,9 @@ typedef struct {
   double norm;
   double last, ratio; /* size of Newton's last step, and the largest of a step to the one before */
   double low, high, low_r, high_r, length; /* one unknown: what has been searched, or the bracket; residuals there */
-  double edge;                             /* one unknown: the largest residual at the ends of the first bracket */
+  double edge, far, far_r, near, near_r;   /* one unknown: the largest residual at the ends of the first bracket; where
+                                              it was found, and how far was searched on the other side */
+  int found;                               /* by which look */
   double path, reached, stride;            /* several: s, the last s that was reached, the step */
 } mdl_newton;
 
@@ -231,14 +233,31 @@ static void mdl_newton_move(mdl_newton *s) {
   mdl_newton_begin(s, MDL_DAMPED);
 }
 
+/* Where the search looks after look k. */
+static double mdl_newton_next(const mdl_newton *s, int k) {
+  const double start = s->work[0], size = 1e-6 * (fabs(start) + s->nominal[0]);
+  return start + (k % 2 ? -size : size) * ldexp(1.0, k / 2);
+}
+
+/* What changed its sign was a pole: look on from where it was met. */
+static void mdl_newton_resume(mdl_newton *s) {
+  s->phase = MDL_SEARCH;
+  s->iterations = s->found + 1;
+  const int up = s->found % 2;
+  s->low = up ? s->near : s->far, s->low_r = up ? s->near_r : s->far_r;
+  s->high = up ? s->far : s->near, s->high_r = up ? s->far_r : s->near_r;
+  s->x[0] = mdl_newton_next(s, s->found);
+}
+
 /* Look for a change of sign at start +- size 2^k, in turn. */
 static void mdl_newton_search(mdl_newton *s, double r) {
   const int k = s->iterations++;
-  const double start = s->work[0], size = 1e-6 * (fabs(start) + s->nominal[0]);
   if (k == 0) {
-    s->low = s->high = start;
+    s->low = s->high = s->work[0];
     s->low_r = s->high_r = r;
   } else if (r * (k % 2 ? s->high_r : s->low_r) < 0.0) {
+    s->found = k, s->far = s->x[0], s->far_r = r;
+    s->near = k % 2 ? s->low : s->high, s->near_r = k % 2 ? s->low_r : s->high_r;
     if (k % 2) s->low = s->high, s->low_r = s->high_r, s->high = s->x[0], s->high_r = r;
     else s->high = s->low, s->high_r = s->low_r, s->low = s->x[0], s->low_r = r;
     s->length = INFINITY;
@@ -251,7 +270,7 @@ static void mdl_newton_search(mdl_newton *s, double r) {
     *(k % 2 ? &s->high_r : &s->low_r) = r;
   }
   if (k > 2 * MDL_DOUBLINGS) s->phase = MDL_FAILED;
-  s->x[0] = start + (k % 2 ? -size : size) * ldexp(1.0, k / 2);
+  s->x[0] = mdl_newton_next(s, k);
 }
 
 /* Halve the bracket where Newton's step leaves it, or three of them have not halved it. A residual that has grown
@@ -260,7 +279,12 @@ static void mdl_newton_narrow(mdl_newton *s, double step) {
   const double next = s->x[0] - step, length = s->high - s->low;
   const int creeps = s->iterations % 3 == 0 && length > 0.5 * s->length;
   if (s->iterations % 3 == 0) s->length = length;
-  if (mdl_newton_is_small(s, &step)) s->phase = s->norm <= s->edge * s->edge ? MDL_SOLVED : MDL_FAILED;
+  const int small = mdl_newton_is_small(s, &step);
+  if (small && s->norm > s->edge * s->edge) {
+    mdl_newton_resume(s);
+    return;
+  }
+  if (small) s->phase = MDL_SOLVED;
   else if (++s->iterations > 4 * MDL_ITERATIONS) s->phase = MDL_FAILED;
   const int inside = next > s->low && next < s->high;
   s->x[0] = s->phase == MDL_SOLVED || (inside && !creeps) ? next : s->low + 0.5 * length;
