@@ -215,9 +215,9 @@ class Model:
         `parameters` replace declared values, `initial` the start values of states. Rows come every `interval` (s; by
         default the model's own, else 500 over the run) and at the stop, with `event_rows` also around each event.
         `outputs` restricts what is recorded. `rtol`: relative tolerance (default: the model's, else 1e-6); `atol`:
-        absolute, for each unit of a nominal value (0.01 rtol). `step` (s): of fixed-step solvers; without `locate_events`
-        they take events at its end. `sensitivities` names parameters and states (their initial values) by which outputs
-        are differentiated (ida, dopri5). `progress` is told the share of the time, and may end the run by raising.
+        absolute, for each unit of a nominal value (0.01 rtol). `step` (s): of fixed-step solvers, which without
+        `locate_events` take events at its end. `sensitivities` names parameters and states (initial values) by which
+        outputs are differentiated (ida, dopri5). `progress` is told the share of the time, and may end the run by raising.
 
         Raises UserError or SimulationError for what cannot be used, IncompleteRun (with its rows) where it ends early.
         """
