@@ -217,7 +217,7 @@ class Model:
         `outputs` restricts what is recorded. `rtol`: relative tolerance (default: the model's, else 1e-6); `atol`:
         absolute, for each unit of a nominal value (0.01 rtol). `step` (s): of fixed-step solvers, which without
         `locate_events` take events at its end. `sensitivities` names parameters and states (initial values) by which
-        outputs are differentiated (ida, dopri5). `progress` is told the share of the time, and may end the run by raising.
+        outputs are differentiated (ida, dopri5). `progress` is told how far it is; what it raises ends the run.
 
         Raises UserError or SimulationError for what cannot be used, IncompleteRun (with its rows) where it ends early.
         """
