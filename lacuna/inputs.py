@@ -76,7 +76,7 @@ def as_inputs(given: Mapping[str, Input], variables: Mapping[str, Variable]) -> 
 
 
 def check_kinds(**given: Any) -> None:
-    """Raises UserError for what is neither a mapping from names nor, of `outputs` and `sensitivities`, a list of them."""
+    """Raises UserError for what is no mapping from names, or, of `outputs` and `sensitivities`, no list of them."""
     for what, value in given.items():
         listed = what in ("outputs", "sensitivities")
         right = isinstance(value, Mapping) if not listed else isinstance(value, Iterable) and not isinstance(value, str)
