@@ -173,12 +173,21 @@ static void give_states(rt_session *s) {
 
 /* Initial equations, relations and discrete equations with initial() true, until they agree. States given by the caller
  * are what others follow from; they replace what initial equations say of them. */
+/* Relations begin as the start values have them: abs(y) = 1 has two solutions, and says which of them is meant. */
+static void begin_relations(rt_session *s) {
+  mdl_data *m = &s->data;
+  rt_inputs_at(s, s->t);
+  if (s->d->n_rel && !s->d->roots(m, s->t, m->x, m->xdot, m->v, s->g)) (void)settle_relations(s, false);
+  m->failure = (mdl_failure){.equation = -1, .variable = -1};
+}
+
 static rt_status solve_initial_equations(rt_session *s) {
   mdl_data *m = &s->data;
   const size_t x_size = (size_t)s->d->n_x * sizeof *m->x;
   char names[400] = "";
   give_states(s);
   memcpy(s->x_start, m->x, x_size);
+  begin_relations(s);
   for (int i = 0; i < MAX_ITERATIONS; i++) {
     memcpy(m->x, s->x_start, x_size);
     rt_inputs_at(s, s->t);
