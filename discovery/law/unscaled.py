@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import math
 import re
 
-_SAID = {"dry": "sign", "onset": "delay", "warmth": "lag"}  # functions that differ in how they are simulated only
+_SAID = {"dry": "sign", "onset": "delay", "warmth": "lag"}  # that differ in how they are simulated, or begin
 _LINEAR = ("lag", "warmth", "delay", "onset", "swing")  # in their first argument
 _X = r"(?P<x>\((?:[^()]|\([^()]*\))*\))"  # what is made dimensionless
 _PLAINER = (  # what is smooth for a fit, as it is thought of: (of a term, as it is said)
