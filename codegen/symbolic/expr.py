@@ -345,6 +345,11 @@ def call(name: str, *args: Expr, type: str | None = None) -> Expr:
     return node("call", tuple(args), name, type or REAL)
 
 
+def is_of_the_model(e: Expr) -> bool:
+    """Whether `e` calls a function of the model; "[]" takes an element of an array."""
+    return e.op == "call" and e.value not in BUILTINS and e.value != "[]"
+
+
 def _builtin_type(name: str, args: tuple[Expr, ...]) -> str:
     if name in ("sign", "integer"):
         return INTEGER

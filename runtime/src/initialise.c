@@ -171,8 +171,6 @@ static void give_states(rt_session *s) {
     s->data.x[s->initial_index[k]] = s->initial_value[k];
 }
 
-/* Initial equations, relations and discrete equations with initial() true, until they agree. States given by the caller
- * are what others follow from; they replace what initial equations say of them. */
 /* Relations begin as the start values have them: abs(y) = 1 has two solutions, and says which of them is meant. */
 static void begin_relations(rt_session *s) {
   mdl_data *m = &s->data;
@@ -181,6 +179,8 @@ static void begin_relations(rt_session *s) {
   m->failure = (mdl_failure){.equation = -1, .variable = -1};
 }
 
+/* Initial equations, relations and discrete equations with initial() true, until they agree. States given by the caller
+ * are what others follow from; they replace what initial equations say of them. */
 static rt_status solve_initial_equations(rt_session *s) {
   mdl_data *m = &s->data;
   const size_t x_size = (size_t)s->d->n_x * sizeof *m->x;

@@ -151,7 +151,7 @@ struct rt_session {
   double *division;           /* [2 n_divisions] numerators and divisors */
   signed char *division_sign; /* [n_divisions] of their products when they were last looked at; 0 not known */
   int undetermined, n_held;   /* mdl_data.undetermined since the last event; terms that hold what it leaves open */
-  int unsettled;              /* mdl_data.unsettled of the last evaluation with guards */
+  int unsettled;              /* mdl_data.unsettled of the last evaluation at the session's own point */
   struct rt_slopes *slopes;   /* reach.c; NULL: there are none */
   struct rt_held *held;       /* [n_x + n_z], undetermined.h */
   rt_branches branches;

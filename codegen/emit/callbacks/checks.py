@@ -8,14 +8,13 @@ from dataclasses import dataclass
 from lacuna.codegen import flat
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.callbacks.continuous import c_function, function
-from lacuna.codegen.emit.callbacks.discrete import is_settable
+from lacuna.codegen.emit.callbacks.discrete import dependent_parameters
 from lacuna.codegen.emit.callbacks.equations import EquationTable
 from lacuna.codegen.emit.text.body import Access, Body
 from lacuna.codegen.emit.text.names import Names
 from lacuna.codegen.emit.text.rolled import Rolled, assignment, in_parts
 from lacuna.codegen.emit.text.steps import comment
 from lacuna.codegen.structure.causal import Assignment, Division, Step
-from lacuna.codegen.structure.constants import dependency_order
 from lacuna.codegen.structure.nominal import difference
 from lacuna.codegen.structure.sizes import told
 from lacuna.codegen.symbolic.expr import BOOLEAN, REAL, ZERO, Expr, var
@@ -31,17 +30,6 @@ TRANSPORTS = f"static int mdl_transports({_POINT}, double *value)"
 TRANSPORT_INITIAL = "static int mdl_transport_initial(const mdl_data *m, double *value)"
 SMALL = 50  # rows up to which each is a line of its own
 MAX_SHOWN = 8  # variables whose values a message shows
-
-
-def dependent_parameters(prepared: Prepared) -> list[tuple[str, flat.Equation]]:
-    """Parameters that follow others, in the order in which they are computed, each with its equation."""
-    model = prepared.model
-    names = [n for n in dependency_order(model) if not is_settable(model.variables[n])]
-    return [(n, _binding(model.variables[n])) for n in names]
-
-
-def _binding(v: flat.Variable) -> flat.Equation:
-    return flat.Equation(var(v.name), v.binding, v.span, text=f"{v.name} = {v.binding}")
 
 
 @dataclass

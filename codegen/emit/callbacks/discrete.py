@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 from lacuna.codegen import flat
 from lacuna.codegen.dae.discrete.events import DiscreteEquation, targets
@@ -51,7 +52,7 @@ class Discrete:
             match step:
                 case DiscreteEquation():
                     body.line(comment(step.source))
-                    body.doubts.row = lambda source=step.source: self._equations.index(source)
+                    body.doubts.row = partial(self._equations.index, step.source)
                     self._equation(step)
                     body.doubts.row = None
                 case flat.When():
@@ -191,14 +192,12 @@ class Discrete:
     def parameters(self) -> str:
         """Dependent parameters in order, then bounds and asserts."""
         body, model, storage = Body(self._names, self._storage.frozen), self._p.model, self._storage
-        dependent = [n for n in dependency_order(model) if not is_settable(model.variables[n])]
-        body.plan(model.variables[n].binding for n in dependent)
-        for name in dependent:
-            v = model.variables[name]
-            source = flat.Equation(var(name), v.binding, v.span, text=f"{name} = {v.binding}")
-            body.line(comment(source))
-            body.doubts.row = lambda source=source: self._equations.index(source)
-            body.let(var(name, v.type), v.binding)
+        dependent = dependent_parameters(self._p)
+        body.plan(equation.rhs for _, equation in dependent)
+        for name, equation in dependent:
+            body.line(comment(equation))
+            body.doubts.row = partial(self._equations.index, equation)
+            body.let(var(name, model.variables[name].type), equation.rhs)
             body.line(f"m->p[{storage.slot(name).index}] = {self._names.identifier(name)};")
         body.doubts.row = None
         for name in storage.parameters:
@@ -220,6 +219,13 @@ class Discrete:
                           f"{body.value(leaf)}, {body.value(limit)}}};")  # fmt: skip
                 body.line("  return -1;")
                 body.line("}")
+
+
+def dependent_parameters(prepared: Prepared) -> list[tuple[str, flat.Equation]]:
+    """Parameters that follow others, in the order in which they are computed, each with its equation."""
+    variables = prepared.model.variables
+    found = [v for n in dependency_order(prepared.model) if not is_settable(v := variables[n])]
+    return [(v.name, flat.Equation(var(v.name), v.binding, v.span, text=f"{v.name} = {v.binding}")) for v in found]
 
 
 def is_settable(v: flat.Variable) -> bool:

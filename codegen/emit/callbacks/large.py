@@ -23,14 +23,13 @@ from lacuna.codegen.emit.callbacks.continuous import (
     Continuous,
     c_function,
 )
-from lacuna.codegen.emit.callbacks.discrete import PARAMETERS, is_settable
+from lacuna.codegen.emit.callbacks.discrete import PARAMETERS, dependent_parameters
 from lacuna.codegen.emit.callbacks.equations import EquationTable
 from lacuna.codegen.emit.text.body import Access, Body
 from lacuna.codegen.emit.text.names import Names
 from lacuna.codegen.emit.text.rolled import Rolled, Statement, assignment, in_parts
 from lacuna.codegen.emit.text.steps import StepWriter, comment, place
 from lacuna.codegen.structure.causal import Division, Step, expressions_of, unknowns_of
-from lacuna.codegen.structure.constants import dependency_order
 from lacuna.codegen.structure.residual_form import CJ, needed
 from lacuna.codegen.structure.sorting.tearing import Assignment
 from lacuna.codegen.symbolic.expr import ZERO, Expr, relation, sub, var
@@ -207,15 +206,14 @@ class Large:
 
     def parameters(self) -> str | None:
         model, storage = self._p.model, self._storage
-        dependent = [model.variables[n] for n in dependency_order(model) if not is_settable(model.variables[n])]
+        dependent = dependent_parameters(self._p)
         if len(dependent) + len(storage.parameters) <= LARGE:
             return None
         rolled = Rolled(self._names, storage.frozen)
-        rolled.plan(v.binding for v in dependent)
-        for v in dependent:
-            leaf, target = var(v.name, v.type), f"m->p[{storage.slot(v.name).index}]"
-            note = comment(flat.Equation(leaf, v.binding, v.span, text=f"{v.name} = {v.binding}"))
-            rolled.add(assignment(target, v.binding, leaf, note))
+        rolled.plan(equation.rhs for _, equation in dependent)
+        for name, equation in dependent:
+            leaf, target = var(name, model.variables[name].type), f"m->p[{storage.slot(name).index}]"
+            rolled.add(assignment(target, equation.rhs, leaf, comment(equation)))
         for name in storage.parameters:
             self._bounds(rolled, model.variables[name])
         self._asserts(rolled, of_parameters(self._p))

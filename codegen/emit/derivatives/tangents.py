@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.callbacks.continuous import function
-from lacuna.codegen.emit.callbacks.discrete import is_settable
+from lacuna.codegen.emit.callbacks.discrete import dependent_parameters, is_settable
 from lacuna.codegen.emit.callbacks.equations import EquationTable
 from lacuna.codegen.emit.derivatives.event_tangent import EventTangent
 from lacuna.codegen.emit.derivatives.lanes import Lanes, Place, needed_tangents, rows_of
@@ -101,7 +101,7 @@ class Tangents:
 
     def _parameters(self) -> str:
         model = self._p.model
-        names = [n for n in dependency_order(model) if not is_settable(model.variables[n])]
+        names = [name for name, _ in dependent_parameters(self._p)]
         chain = Gradients()  # of its own: what only dependent parameters use is not thereby used
         body = Body(self._names, self._storage.frozen)
         lanes = Lanes(body, chain, rows_of(self._storage), self._equations.index)

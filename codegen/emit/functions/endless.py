@@ -1,4 +1,5 @@
-"""Which functions of a model may run for long or take much of the stack, how far, and where that is told."""
+"""Which functions of a model may run for long, take much of the stack or compare what is no number, and where that is
+told."""
 
 from __future__ import annotations
 
@@ -7,7 +8,7 @@ import math
 
 from lacuna.codegen import flat
 from lacuna.codegen.emit.text.doubts import Doubts
-from lacuna.codegen.symbolic.expr import BUILTINS, TRUE, Expr, walk
+from lacuna.codegen.symbolic.expr import TRUE, Expr, is_of_the_model, walk
 from lacuna.codegen.symbolic.function_tangent import by_name, original
 from lacuna.codegen.symbolic.rewrite import all_statements, expressions
 
@@ -46,8 +47,8 @@ def row_of(f: flat.Function) -> flat.Assert:
 
 def calls(roots: Iterable[Expr]) -> list[str]:
     """Names of the functions of the model that occur in expressions, in order."""
-    found = (str(n.value) for root in roots for n in walk(root) if n.op == "call")
-    return list(dict.fromkeys(name for name in found if name not in BUILTINS and name != "[]"))
+    found = (str(n.value) for root in roots for n in walk(root) if is_of_the_model(n))
+    return list(dict.fromkeys(found))
 
 
 def calls_of(f: flat.Function) -> list[tuple[str, bool]]:

@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from lacuna.codegen.symbolic.expr import BOOLEAN, BUILTINS, INTEGER, REAL, RELATIONS, Expr
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, RELATIONS, Expr, is_of_the_model
 from lacuna.codegen.symbolic.leaves import LEAF_OPS
 
-_TOTAL = ("abs", "sign", "sin", "cos", "tan", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "floor", "ceil",
-          "integer", "[]")  # fmt: skip
+_PARTIAL = ("sqrt", "asin", "acos", "log", "log10", "mod", "rem", "div")  # built-ins that not all numbers have
 
 
 class Doubts:
@@ -43,8 +42,7 @@ class Doubts:
         if e.op in LEAF_OPS:
             return False
         if e not in self._notes:
-            called = e.op == "call" and e.value not in BUILTINS and e.value != "[]"
-            self._notes[e] = called or self.of(e) or any(map(self.inside, e.args))
+            self._notes[e] = is_of_the_model(e) or self.of(e) or any(map(self.inside, e.args))
         return self._notes[e]
 
     def _may_lack_value(self, e: Expr) -> bool:
@@ -60,8 +58,8 @@ def _is_partial(e: Expr) -> bool:
     if e.op == "/":
         return e.args[1].op != "const"
     if e.op == "^":
-        return e.args[1].op != "const" or e.args[1].value != int(e.args[1].value)
-    return may_round(e) or (e.op == "call" and e.value not in _TOTAL)
+        return e.args[1].op != "const" or e.args[1].value % 1 != 0
+    return may_round(e) or is_of_the_model(e) or (e.op == "call" and e.value in _PARTIAL)
 
 
 def may_round(e: Expr) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
 from lacuna.codegen import flat
@@ -57,7 +58,7 @@ class StepWriter:
                     self._nonlinear(step)
 
     def note(self, row: Row) -> None:
-        self._body.doubts.row = lambda: self._equation_index(row.source)
+        self._body.doubts.row = partial(self._equation_index, row.source)
         text = comment(row.source, row.text)
         if text != self._last_comment:
             self._body.line(text)

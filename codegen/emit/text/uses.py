@@ -9,8 +9,6 @@ from lacuna.codegen.emit.text.expression import is_trivial
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.symbolic.leaves import LEAF_OPS
 
-_UNDER_A_CONDITION = {"if": 1, "and": 1, "or": 1}  # operands from here on may not be computed
-
 
 class Uses:
     """Counts how often planned expressions use their parts."""
@@ -44,7 +42,7 @@ class Uses:
             if n in self._certain or not self._doubts.inside(n):
                 continue
             self._certain.add(n)
-            stack.extend(n.args[: _UNDER_A_CONDITION.get(n.op)])
+            stack.extend(n.args[:1] if n.op in ("if", "and", "or") else n.args)  # C leaves out the others
 
     def is_shared(self, e: Expr) -> bool:
         """Whether `e` gets a temporary: it is used twice, and computing it ahead notes nothing of what the conditions

@@ -8,8 +8,7 @@ from lacuna.codegen.flatten.connections.connection_sets import ConnectionSets
 from lacuna.codegen.flatten.connections.connectors import (
     End,
     Part,
-    connectors,
-    dimensions,
+    connectors_in_shape,
     is_outside,
     parts,
     refuse_element,
@@ -100,17 +99,17 @@ def _unconnected(sets: ConnectionSets, context: Context) -> list[flat.Equation]:
 
 
 def _connect(item: ast.Connect, scope: Scope, sets: ConnectionSets, equations: list[flat.Equation]) -> None:
-    sides = []
+    sides, sizes = [], []
     for ref in (item.left, item.right):
         outside = is_outside(ref, scope)
-        found = connectors(ref, scope)
+        found, shape = connectors_in_shape(ref, scope)
+        sizes.append(shape)
         for node in found:
             refuse_element(node, ref)
         sides.append([(node, parts(node, outside)) for node in found])
     left, right = sides
     if not (left and right):
         return  # a component that a condition removed
-    sizes = [dimensions(ref, scope) for ref in (item.left, item.right)]
     if sizes[0] != sizes[1]:
         message = " with ".join(f"{_counted(n)} ({ref})" for n, ref in zip(sizes, (item.left, item.right), strict=True))
         raise Diagnostic("R060", f"connect: {message}", item.span, "both sides need the same size")

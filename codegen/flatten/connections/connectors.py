@@ -46,20 +46,28 @@ def connectors(ref: ast.Ref, scope: Scope) -> list[Connector]:
 
     Empty where a condition removed the component. Raises R002, R003, R044 or R061.
     """
+    return connectors_in_shape(ref, scope)[0]
+
+
+def connectors_in_shape(ref: ast.Ref, scope: Scope) -> tuple[list[Connector], tuple[int, ...]]:
+    """As `connectors`, with the sizes of the array of them that the name means; none for a single one."""
     node = scope.instance.meant(ref.names[0])
     if node is None:
         raise unknown_name(ref, scope)
     nodes: list[Connector] = [node]
+    sizes: tuple[int, ...] = ()
     for at, subscripts in enumerate(ref.subscripts):
         if at:
             nodes = [member(n, ref, at) for n in nodes]
-        nodes = [picked for n in nodes for picked in pick(n, subscripts, ref, at, scope)]
+        found = [_pick(n, subscripts, ref, at, scope) for n in nodes]
+        sizes += found[0][1] if found else ()
+        nodes = [picked for some, _ in found for picked in some]
     for n in nodes:
         if not is_connector(n[0] if isinstance(n, tuple) else n):
             hint = "connect joins connectors, such as a.p or b.flange_a"
             raise Diagnostic("R061", f"{ref} is no connector", ref.span, hint)
     _refuse_deep(ref, scope)
-    return nodes
+    return nodes, sizes
 
 
 def _refuse_deep(ref: ast.Ref, scope: Scope) -> None:
@@ -103,38 +111,29 @@ def pick(
     node: Node, subscripts: tuple[ast.Expression, ...] | None, ref: ast.Ref, at: int, scope: Scope
 ) -> list[Connector]:
     """The elements of `node` that name number `at` of `ref` means with its subscripts."""
+    return _pick(node, subscripts, ref, at, scope)[0]
+
+
+def _pick(
+    node: Node, subscripts: tuple[ast.Expression, ...] | None, ref: ast.Ref, at: int, scope: Scope
+) -> tuple[list[Connector], tuple[int, ...]]:
+    """As `pick`, with the sizes of what was picked."""
     if isinstance(node, Absent):
-        return []
+        return [], ()
     last = at == len(ref.names) - 1
     if isinstance(node, Leaf):
         if not last:
             raise Diagnostic("R061", f"{node.name} has no connectors", ref.span, "name a connector")
         if not node.shape:
-            return [(node, 0)]
+            return [(node, 0)], ()
         picked = apply_subscripts(_numbers(node), subscripts, scope, ref)
-        return [(node, position) for position in _chosen(picked, ref)]
+        return [(node, position) for position in _chosen(picked, ref)], shape_of(picked)
     if isinstance(node, ArrayNode):
         picked = apply_subscripts(node.numbers, subscripts, scope, ref)
-        return [node.items[number - 1] for number in _chosen(picked, ref)]
+        return [node.items[number - 1] for number in _chosen(picked, ref)], shape_of(picked)
     if subscripts is not None:
         raise Diagnostic("R044", f"{node.name} is no array", ref.span, "remove the subscript")
-    return [node]
-
-
-def dimensions(ref: ast.Ref, scope: Scope) -> tuple[int, ...]:
-    """Sizes of the array of connectors that a name means; none for a single one."""
-    node, sizes = scope.instance.meant(ref.names[0]), ()
-    for at, subscripts in enumerate(ref.subscripts):
-        if at:
-            node = member(node, ref, at)
-        if isinstance(node, ArrayNode) or (isinstance(node, Leaf) and node.shape):
-            numbers = _numbers(node) if isinstance(node, Leaf) else node.numbers
-            picked = apply_subscripts(numbers, subscripts, scope, ref)
-            sizes += shape_of(picked)
-            if isinstance(node, Leaf) or not (found := _chosen(picked, ref)):
-                break
-            node = node.items[found[0] - 1]
-    return sizes
+    return [node], ()
 
 
 def _chosen(value: Value, ref: ast.Ref) -> list[int]:

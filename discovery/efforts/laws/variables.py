@@ -91,18 +91,8 @@ def _through(
     place = {location, location.rpartition(".")[0]}
     known = answering & units.keys() & along[0].values.keys()
     near = sorted(n for n in known if n.rpartition(".")[0] in place or n in place)
-    found: list[Variable] = []
-    courses: list[np.ndarray] = []
-    for name in near:
-        course = np.concatenate([a.values[name] * np.ones(len(a.time)) for a in along])
-        size = float(np.abs(course).max(initial=0.0))
-        if not np.isfinite(size) or np.ptp(course) <= MOVES * size:
-            continue
-        if any(_says_nothing_new(course / size, c) for c in courses):
-            continue
-        found.append(Variable(f"x{count + len(found) + 1}", name, units[name], "through", float(f"{size:.2g}")))
-        courses.append(course / size)
-    return found[: APART // 2]
+    courses = {n: np.concatenate([a.values[n] * np.ones(len(a.time)) for a in along]) for n in near}
+    return _of_their_own(courses, units, "through", count, APART // 2)
 
 
 def _of_recordings(
@@ -110,18 +100,28 @@ def _of_recordings(
 ) -> list[Variable]:  # fmt: skip
     """Parameters that differ between recordings, none of which follows from another: what a law's coefficient may be
     of, as friction is of the load that is carried."""
+    fixed = [n for n, v in known.items() if v.kind == "parameter" and np.ndim(along[0].values.get(n, ())) == 0]
+    values = {n: np.array([float(a.values[n]) for a in along]) for n in fixed if not added(n)}
+    return _of_their_own(values, {n: known[n].unit for n in values}, "recording", count, APART)
+
+
+def _of_their_own(
+    courses: Mapping[str, np.ndarray], units: Mapping[str, str], kind: str, count: int, most: int
+) -> list[Variable]:
+    """Variables behind so many others: up to `most` that move, none of which follows from another."""
     found: list[Variable] = []
-    courses: list[np.ndarray] = []
-    fixed = (n for n, v in known.items() if v.kind == "parameter" and np.ndim(along[0].values.get(n, ())) == 0)
-    for name in (n for n in fixed if not added(n)):
-        values = np.array([float(a.values[name]) for a in along])
-        size = float(np.abs(values).max(initial=0.0))
-        if np.ptp(values) <= MOVES * size or any(_says_nothing_new(values / size, c) for c in courses):
+    kept: list[np.ndarray] = []
+    for name, course in courses.items():
+        size = float(np.abs(course).max(initial=0.0))
+        if not np.isfinite(size) or np.ptp(course) <= MOVES * size:
             continue
-        number = count + len(found) + 1
-        found.append(Variable(f"x{number}", name, known[name].unit, "recording", float(f"{size:.2g}")))
-        courses.append(values / size)
-    return found[:APART]
+        if any(_says_nothing_new(course / size, other) for other in kept):
+            continue
+        found.append(Variable(f"x{count + len(found) + 1}", name, units[name], kind, float(f"{size:.2g}")))
+        kept.append(course / size)
+        if len(found) == most:
+            break
+    return found
 
 
 def _differences(

@@ -54,7 +54,6 @@ class Opened:
     sites: list[Site]
     closed: list[tuple[str, str]]
     believed: Prepared  # without inputs, whose equations are as they were written
-    _weights: np.ndarray | None = None  # (sites,) RMS of what the equation of each is about; 0: not known
 
     @cached_property
     def hidden(self) -> frozenset[str]:
@@ -73,7 +72,6 @@ class Opened:
         changes least at once: its law may be of what the others change (friction in proportion to the force of a gas,
         in their sum)."""
         effect = self._effect(along)
-        self._weights = np.array([size_of(own_name(site), along) for site in self.sites])
         direction = _directions(effect)
         groups: list[list[int]] = []
         acting = np.abs(effect).max(axis=(0, 1)) > 0
@@ -92,7 +90,8 @@ class Opened:
         answering = np.any([a.answering for a in along], axis=0)
         answer = np.count_nonzero(answering, axis=0)  # unknowns that each changes at once
         groups = [sorted(group, key=lambda k: answer[k]) for group in groups]
-        found = told_apart([self._place(group, effect) for group in groups])
+        weights = np.linalg.norm(effect, axis=(0, 1)) * [size_of(own_name(site), along) for site in self.sites]
+        found = told_apart([self._place(group, effect, weights) for group in groups])
         return self._with_families(found, groups, effect)
 
     def _with_families(self, places: list[Place], groups: list[list[int]], effect: np.ndarray) -> list[Place]:
@@ -124,7 +123,7 @@ class Opened:
         sizes = np.array([*rates, *outputs])[None, :, None]
         return np.concatenate([direct[:, : len(states), :count], feed[:, :, :count]], axis=1) / sizes
 
-    def _place(self, group: list[int], effect: np.ndarray) -> Place:
+    def _place(self, group: list[int], effect: np.ndarray, weights: np.ndarray) -> Place:
         states = self.linear.states
         strength = np.sqrt(np.mean(effect[:, :, group[0]] ** 2, axis=0))
         believed = strength[: len(states)] * self._own
@@ -134,7 +133,7 @@ class Opened:
         name = changed[int(np.argmax(strength[: len(states)] if changed is states else strength[len(states) :]))]
         location = name.rpartition(".")[0] or name
         order = sorted(group, key=lambda k: (not _touches(self.sites[k], location), ORDER[self.sites[k].kind]))
-        order = weightiest(order, self.sites, self._weights * np.linalg.norm(effect, axis=(0, 1)))
+        order = weightiest(order, self.sites, weights)
         chosen = order[0]
         several = np.count_nonzero(strength[: len(states)]) > 1
         if own := self._of_several(order) or (several and self._sent_to(order)):
