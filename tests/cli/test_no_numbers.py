@@ -58,3 +58,10 @@ def test_a_relation_that_makes_no_event_compares_numbers(tmp_path: Path, text: s
     iteration meets on its way does not count."""
     found, said = simulated(tmp_path, f"model M {text} end M;")
     assert (found, "one side of a relation is not a number" in said) == (status, status == 1), said
+
+
+def test_a_size_that_is_no_number_is_no_relation_of_the_model(tmp_path: Path) -> None:
+    """With both parameters zero the size of x, a/b, is 0/0: the declared one stands in for it."""
+    text = "model M parameter Real a = 10, b = 1; Real x; equation b*x + sinh(x) = a*time; end M;"
+    status, said = simulated(tmp_path, text, "-p", "a=0", "-p", "b=0")
+    assert status == 0, said

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import contextmanager
 
-from lacuna.codegen.emit.text.doubts import Doubts
+from lacuna.codegen.emit.text.doubts import SURE, Doubts
 from lacuna.codegen.emit.text.expression import c_type, lower_powers, to_c
 from lacuna.codegen.emit.text.names import Names
 from lacuna.codegen.emit.text.uses import Uses
@@ -52,22 +52,29 @@ class Body:
 
     def value(self, e: Expr, outer: int = 0) -> str:
         """C text of `e`; temporaries that it shares with others are written before."""
-        e = lower_powers(e, self._lowered)
-        self._prepare(e)
-        return to_c(e, self._name, outer, self.doubts)
+        return self._text(e, outer, self.doubts)
 
-    def _prepare(self, e: Expr) -> None:
+    def size(self, e: Expr, outer: int = 0) -> str:
+        """As `value`, of the size of an unknown: what it compares is none of the model's relations."""
+        return self._text(e, outer, SURE)
+
+    def _text(self, e: Expr, outer: int, doubts: Doubts) -> str:
+        e = lower_powers(e, self._lowered)
+        self._prepare(e, doubts)
+        return to_c(e, self._name, outer, doubts)
+
+    def _prepare(self, e: Expr, doubts: Doubts) -> None:
         if e in self._defined or e.op == "const" or self.names.table(e):
             return
         if e.op in LEAF_OPS:
             self._load(e)
             return
         for a in e.args:
-            self._prepare(a)
+            self._prepare(a, doubts)
         if self._uses.is_shared(e):
             self._temporaries += 1
             name = f"tmp{self._temporaries}"
-            self.line(f"const {c_type(e)} {name} = {to_c(e, self._name, doubts=self.doubts)};")
+            self.line(f"const {c_type(e)} {name} = {to_c(e, self._name, doubts=doubts)};")
             self._defined[e] = name
 
     def _load(self, n: Expr) -> None:

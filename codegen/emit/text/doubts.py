@@ -53,6 +53,14 @@ class Doubts:
         return self._lacks[e]
 
 
+class _Sure(Doubts):
+    def of(self, e: Expr) -> bool:
+        return False
+
+
+SURE = _Sure()  # for what the model does not say: sizes of unknowns, which others stand in for where they are no number
+
+
 def _is_partial(e: Expr) -> bool:
     """Whether what `e` does to its operands has a value for some of them only."""
     if e.op == "/":

@@ -78,7 +78,7 @@ class StepWriter:
         sizes = [self._nominal(u) for u in step.tears]
         with body.scope(f"if ({block}_singular)", sizes):
             equation = self._equation_of(step.residuals, f"{block}_singular")
-            nominal = ", ".join(map(body.value, sizes))
+            nominal = ", ".join(map(body.size, sizes))
             body.line(f"const double {block}_nominal[{size}] = {{{nominal}}};")
             body.line(f"const int {block}_equation = {equation};")
             arguments = f"m, {size}, {block}_singular - 1, {block}_a, {block}_b, {block}_nominal"
@@ -142,7 +142,7 @@ class StepWriter:
         body.line(f"if ({name}_divisor != 0.0) {name} {by};")
         body.line(f"else if ({name} != 0.0) {self._fail('SINGULAR', row)}")
         with body.scope("else", [nominal]):
-            body.line(f"{name} = m->shift * {body.value(nominal, 7)};")
+            body.line(f"{name} = m->shift * {body.size(nominal, 7)};")
             body.line(f"m->undetermined = {1 + self._equation_index(row.source)};")
 
     def _nonlinear(self, step: NonlinearBlock) -> None:
@@ -157,7 +157,7 @@ class StepWriter:
             body.declare(a.unknown, "0.0")
         body.line(f"double {block}_x[{size}] = {{{', '.join(names)}}};")
         body.line(f"double {block}_work[{4 * size}] = {{{', '.join(names)}}};")
-        nominal = ", ".join(body.value(self._nominal(u)) for u in step.tears)
+        nominal = ", ".join(body.size(self._nominal(u)) for u in step.tears)
         body.line(f"const double {block}_nominal[{size}] = {{{nominal}}};")
         fields = f".n = {size}, .x = {block}_x, .work = {block}_work, .nominal = {block}_nominal"
         body.line(f"mdl_newton {block} = {{{fields}}};")

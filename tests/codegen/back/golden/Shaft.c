@@ -122,15 +122,6 @@ static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double val
   return 1;
 }
 
-static inline void mdl_sides(const mdl_data *m, int where, double a, double b) {
-  if (a != a || b != b) ((mdl_data *)m)->unsettled = where;
-}
-
-static inline int mdl_gt(const mdl_data *m, int where, double a, double b) {
-  mdl_sides(m, where, a, b);
-  return a > b;
-}
-
 static int mdl_parameters(mdl_data *m) {
   const double J1 = m->p[0];
   const double J2 = m->p[1];
@@ -186,7 +177,7 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
   else if (der_w1 != 0.0) return mdl_fail(m, MDL_FAILURE_SINGULAR, 2, 0.0);
   else {
     const double tmp1 = fabs(k) * fabs(w_ref) / fabs(J1);
-    der_w1 = m->shift * (mdl_gt(m, 3, tmp1, 0.0) ? tmp1 : 2.5);
+    der_w1 = m->shift * (tmp1 > 0.0 ? tmp1 : 2.5);
     m->undetermined = 3;
   }
   /* Shaft.mo:19  J1*der(w1) = drive - tau */
