@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lacuna.codegen.flatten.connections.overconstrained import is_root, rooted
+from lacuna.codegen.flatten.connections.overconstrained import STATEMENTS, is_root, rooted
 from lacuna.codegen.flatten.connections.streams import actual_stream, in_stream
 from lacuna.codegen.flatten.connections.structure import cardinality
 from lacuna.codegen.flatten.expressions import arrays, lower, operators, reductions
@@ -30,6 +30,7 @@ LOWERING = Lowering(
         **operators.SCALAR_FUNCTIONS,
         **operators.OPERATORS,
     },
+    words=calls.WORDS | {*STATEMENTS},
     results=calls.call_of_model,
     overloaded=overloads.overloaded,
     construct=overloads.construct,

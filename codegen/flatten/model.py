@@ -35,6 +35,7 @@ from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier
 from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.references.written import check_written
 from lacuna.codegen.flatten.sections import flatten_items
 from lacuna.codegen.library.classes import MODEL_KINDS, Library
 from lacuna.codegen.library.renamed import warnings_of
@@ -76,6 +77,7 @@ def flatten(
     stream_variables(model, context)
     derivative_variables(model, context)
     context.finish()
+    check_written(top)
     check_components(leaves, buses, body, context, imbalance)
     check_annotations(leaves, context)
     model.whens, model.algorithms, model.initial_equations = body.whens, body.algorithms, initial.equations

@@ -25,7 +25,7 @@ from lacuna.codegen.flatten.names.scope import (
     own_or_inherited,
     refuse_protected,
 )
-from lacuna.codegen.flatten.names.unknown import visible_classes
+from lacuna.codegen.flatten.names.unknown import unknown_function
 from lacuna.codegen.flatten.names.values import FunctionValue, Value, elementwise
 from lacuna.codegen.flatten.names.views import constraints_of
 from lacuna.codegen.flatten.references.references import refuse_conditional
@@ -34,7 +34,6 @@ from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.differentiate import Differentiator
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, Expr
 from lacuna.codegen.syntax import ast
-from lacuna.suggest import did_you_mean
 
 _OUTSIDE = {  # clocks and state machines (chapters 16 and 17)
     "Clock": "use when sample(start, interval) then",
@@ -54,6 +53,7 @@ _OUTSIDE = {  # clocks and state machines (chapters 16 and 17)
 }
 
 
+WORDS = frozenset((OPERATOR, "pure", "reinit", "assert", "terminate", *_OUTSIDE))  # no functions of a library
 _OF_MODELS = ("initial", "terminal", "sample", "pre", "edge", "change")  # functions know no events (12.2)
 
 
@@ -120,10 +120,7 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
         raise Diagnostic("R091", f"{name} is outside the subset", e.function.span, hint)
     if name in ("reinit", "assert", "terminate"):
         raise Diagnostic("R004", f"{name} has no value", e.function.span, "it stands alone, ended by ';'")
-    hint = did_you_mean(e.function.names[-1], _functions_beside(e.function, scope), "declare it, or import its package")
-    if scope.instance is not None and e.function.names[0] in scope.instance.elements:
-        hint = f"{name} is a variable: index it as {name}[i], multiply as {name}*(...)"
-    raise Diagnostic("R004", f"there is no function {name}", e.function.span, hint)
+    raise unknown_function(e.function, scope)
 
 
 def _taken_as_pure(e: ast.Call, scope: Scope) -> list[Value]:
@@ -181,17 +178,6 @@ def _is_kind_of(cls: ast.Class, other: ast.Class, library: Library) -> bool:
     """Whether `cls` is `other` or inherits from it."""
     same = (cls.origin or cls) is (other.origin or other)
     return same or any(_is_kind_of(base, other, library) for base in base_classes(library, cls))
-
-
-def _functions_beside(ref: ast.Ref, scope: Scope) -> list[str]:
-    """Names that the last one of `ref` may mean where there is no such function: of the package before it, if any."""
-    library, before = scope.context.library, ref.names[:-1]
-    package = (
-        find_class(library, scope.cls, replace(ref, names=before, subscripts=ref.subscripts[:-1])) if before else None
-    )
-    if package is not None:
-        return [name for own in (package, *base_classes(library, package)) for name in library.members(own)]
-    return [*scope.context.lowering.functions, *visible_classes(library, scope.cls)]
 
 
 def _of_component(ref: ast.Ref, scope: Scope) -> tuple[ast.Class | None, Component | None]:

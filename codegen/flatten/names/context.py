@@ -29,6 +29,7 @@ class Lowering:
 
     nodes: Mapping[type, Callable[..., Value]]  # by kind of node
     functions: Mapping[str, Callable[..., Value]]  # built-in functions by name
+    words: frozenset[str]  # what is called and is neither
     results: Callable[..., list[Value]]  # all results of the call of a function of the model
     overloaded: Callable[..., Value]  # an operator of operator records
     construct: Callable[..., Value]  # a call of a record

@@ -2,8 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from lacuna.codegen.errors import Diagnostic
-from lacuna.codegen.flatten.names.scope import PRIMITIVES, base_classes, find_first, own_or_inherited
+from lacuna.codegen.flatten.names.scope import (
+    PRIMITIVES,
+    Scope,
+    base_classes,
+    find_class,
+    find_first,
+    own_or_inherited,
+)
 from lacuna.codegen.library.classes import HOME_PACKAGE, Library
 from lacuna.codegen.library.search_path import WITHOUT_MODELICA
 from lacuna.codegen.syntax import ast
@@ -46,6 +55,25 @@ def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> 
             else f"an encapsulated class around it sees only what it imports: import ...{missing};"
         )
     return Diagnostic("R001", f"there is no {what} {ref}", ref.span, hint)
+
+
+def unknown_function(ref: ast.Ref, scope: Scope) -> Diagnostic:
+    """R004: no function of this name, with the nearest that there are; of a variable, that it is one."""
+    hint = did_you_mean(ref.names[-1], _functions_beside(ref, scope), "declare it, or import its package")
+    if scope.instance is not None and ref.names[0] in scope.instance.elements:
+        hint = f"{ref} is a variable: index it as {ref}[i], multiply as {ref}*(...)"
+    return Diagnostic("R004", f"there is no function {ref}", ref.span, hint)
+
+
+def _functions_beside(ref: ast.Ref, scope: Scope) -> list[str]:
+    """Names that the last one of `ref` may mean where there is no such function: of the package before it, if any."""
+    library, before = scope.context.library, ref.names[:-1]
+    package = (
+        find_class(library, scope.cls, replace(ref, names=before, subscripts=ref.subscripts[:-1])) if before else None
+    )
+    if package is not None:
+        return [name for own in (package, *base_classes(library, package)) for name in library.members(own)]
+    return [*scope.context.lowering.functions, *visible_classes(library, scope.cls)]
 
 
 def _imported_as(cls: ast.Class, name: str) -> ast.Ref | None:
