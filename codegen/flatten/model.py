@@ -21,6 +21,7 @@ from lacuna.codegen.flatten.connections.structure import Structure
 from lacuna.codegen.flatten.equations.algorithms import carriers, flatten_algorithm
 from lacuna.codegen.flatten.equations.asserts import require_lasting
 from lacuna.codegen.flatten.equations.equations import Collected, check_discrete
+from lacuna.codegen.flatten.equations.sections import flatten_items
 from lacuna.codegen.flatten.equations.texts import bind_texts
 from lacuna.codegen.flatten.equations.variables import (
     add_used_constants,
@@ -36,7 +37,7 @@ from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.references.written import check_written
-from lacuna.codegen.flatten.sections import flatten_items
+from lacuna.codegen.flatten.untaken import check_untaken
 from lacuna.codegen.library.classes import MODEL_KINDS, Library
 from lacuna.codegen.library.renamed import warnings_of
 from lacuna.codegen.symbolic import expr as ex
@@ -82,11 +83,13 @@ def flatten(
     check_annotations(leaves, context)
     model.whens, model.algorithms, model.initial_equations = body.whens, body.algorithms, initial.equations
     model.asserts = body.asserts + initial.asserts + context.table(Required)
-    model.functions, model.derivatives = context.functions, context.derivatives
+    model.functions, model.derivatives, model.foreign = (
+        context.functions,
+        context.derivatives,
+        context.table(flat.ForeignCode),
+    )
     at_events = [*assigned(model.whens), *(n for a in model.algorithms for n in a.targets)]
-    with context.attempt():
-        require_lasting(body.asserts)
-        check_discrete(model.equations, leaves, set(at_events), context)
+    _check_events(model, body, leaves, set(at_events), context)
     mark_discrete(model, at_events)
     add_used_constants(model, context, list(_all_expressions(model)))
     mark_evaluated(model, context.evaluated)
@@ -95,7 +98,23 @@ def flatten(
     model.files, model.warnings = {**library.files, **context.files}, [*context.warnings, *warnings_of(library)]
     model.foreign = context.table(flat.ForeignCode)
     context.finish()
+    _look_beside(model, top)
     return model
+
+
+def _check_events(
+    model: flat.FlatModel, body: Collected, leaves: list[Leaf], at_events: set[str], context: Context
+) -> None:
+    with context.attempt():
+        require_lasting(body.asserts)
+        check_discrete(model.equations, leaves, at_events, context)
+
+
+def _look_beside(model: flat.FlatModel, top: Instance) -> None:
+    """Checks of what the model leaves out; whatever they make belongs to the context alone."""
+    model.functions = dict(model.functions)
+    check_untaken(top)
+    top.context.finish()
 
 
 def _flatten_variables(leaves: Iterable[Leaf], model: flat.FlatModel, context: Context) -> None:

@@ -145,7 +145,7 @@ class Instance:
             raise Diagnostic("R012", f"declarations depend on each other: {circle}", element.declaration.span, hint)
         self._building.append(name)
         try:
-            node = self._children[name] = self._build(element)
+            node = self._children[name] = self.build(element)
         finally:
             self._building.pop()
         return node
@@ -169,7 +169,7 @@ class Instance:
     def path_of(self, name: str) -> str:
         return f"{self.name}.{name}" if self.name else name
 
-    def _build(self, element: Element) -> Node:
+    def build(self, element: Element) -> Node:  # the component that is declared
         declaration = element.declaration
         scope = Scope(self.context, element.cls, self)
         redeclared = element.modifier is not None and isinstance(element.modifier.redeclare, ast.Component)

@@ -19,6 +19,7 @@ from lacuna.codegen.flatten.names.scope import (
 from lacuna.codegen.flatten.names.views import constrain, modified, view
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax import ast
+from lacuna.suggest import did_you_mean
 
 
 def redeclaration(
@@ -43,8 +44,25 @@ def redeclaration(
     if new.dimensions and had != has:
         message = f"{old.name} has {had} dimensions and is redeclared with {has} (7.3)"
         raise Diagnostic("R034", message, new.span, "keep the number of dimensions")
+    if any(_literals_differ(a, b) for a, b in zip(old.dimensions, new.dimensions, strict=False)):
+        raise Diagnostic("R034", f"{old.name} is redeclared in another size (7.3)", new.span, "keep the size")
     _narrowed(new, scope, bound, elements)
+    _refuse_unknown(old, resolve_type(old.type, own), own, elements)
     return inheriting(new, old), scope
+
+
+def _literals_differ(a: ast.Expression, b: ast.Expression) -> bool:
+    return isinstance(a, ast.Literal) and isinstance(b, ast.Literal) and a.value != b.value
+
+
+def _refuse_unknown(old: ast.Component, declared: Type, own: Scope, elements: ElementsOf) -> None:
+    """A replaceable declaration modifies what its own type has, whatever is chosen in its place (7.2)."""
+    cls = declared.cls if declared.primitive is None else None
+    known = elements(cls) if cls is not None and old.modification.arguments else {}
+    for a in old.modification.arguments if cls is not None else ():
+        if a.name not in known and own_or_inherited(own.context.library, cls, a.name) is None:
+            hint = did_you_mean(a.name, known, f"{cls.name} has {', '.join(list(known)[:10]) or 'no elements'}")
+            raise Diagnostic("R032", f"{cls.path} has no element {a.name} to modify", a.span, hint)
 
 
 def _narrowed(new: ast.Component, scope: Scope, bound: Type, elements: ElementsOf) -> Type:

@@ -37,6 +37,7 @@ def text_of(e: ast.Call, scope: Scope) -> Value:
         raise Diagnostic("R020", "String of what is no scalar", e.span, "use one element of it")
     if scope.message is not None and value.op != "const":
         scope.message.append(value)
+        _options(e, value, scope)
         return str(value)
     kind = enumeration_of(value, scope.context)
     value = settled(value, scope.context)

@@ -3,6 +3,7 @@ known condition leaves out, in loops that are passed no time, in components that
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 
 from lacuna.codegen.errors import Diagnostic
@@ -17,14 +18,22 @@ from lacuna.codegen.syntax import ast
 MEANINGLESS = ("R002", "R003", "R004")  # no variable, no element, no function; other faults are those of evaluation
 
 
+def instances(top: Instance) -> Iterator[Instance]:
+    """`top` and the components below it, the first one of each class."""
+    seen: set[int] = set()
+    waiting: list[Node] = [top]
+    while waiting:
+        node = waiting.pop()
+        waiting += node.items[:1] if isinstance(node, ArrayNode) else []
+        if isinstance(node, Instance) and id(node.cls) not in seen:
+            seen.add(id(node.cls))
+            yield node
+            waiting += [node.child(name) for name in reversed(node.elements)]
+
+
 def check_written(top: Instance) -> None:
     """Report names without a meaning in `top` and below, of each class once."""
-    seen: set[int] = set()
-
-    def visit(instance: Instance) -> None:
-        if id(instance.cls) in seen:
-            return
-        seen.add(id(instance.cls))
+    for instance in instances(top):
         for section, cls in instance.sections:
             for item in section.items:
                 with instance.context.attempt():
@@ -32,12 +41,6 @@ def check_written(top: Instance) -> None:
         for name in instance.elements:
             with instance.context.attempt():
                 _check_declaration(instance, name)
-            node = instance.child(name)
-            for inner in node.items[:1] if isinstance(node, ArrayNode) else [node]:
-                if isinstance(inner, Instance):
-                    visit(inner)
-
-    visit(top)
 
 
 def _check_declaration(instance: Instance, name: str) -> None:
