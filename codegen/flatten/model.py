@@ -83,11 +83,7 @@ def flatten(
     check_annotations(leaves, context)
     model.whens, model.algorithms, model.initial_equations = body.whens, body.algorithms, initial.equations
     model.asserts = body.asserts + initial.asserts + context.table(Required)
-    model.functions, model.derivatives, model.foreign = (
-        context.functions,
-        context.derivatives,
-        context.table(flat.ForeignCode),
-    )
+    model.functions, model.derivatives = context.functions, context.derivatives
     at_events = [*assigned(model.whens), *(n for a in model.algorithms for n in a.targets)]
     _check_events(model, body, leaves, set(at_events), context)
     mark_discrete(model, at_events)

@@ -5,9 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.classes.inheritance import Element
 from lacuna.codegen.flatten.classes.instance import Absent, ArrayNode, Instance, Node
 from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.equations.equations import Collected
@@ -31,7 +33,7 @@ def check_untaken(top: Instance) -> None:
         for name, element in instance.elements.items():
             if isinstance(instance.child(name), Absent):
                 there = replace(element, declaration=replace(element.declaration, condition=None))
-                _check(lambda there=there: _check_component(instance.build(there)), instance)
+                _check(partial(_check_component, instance, there), instance)
 
 
 def _check(look: Callable[[], None], instance: Instance) -> None:
@@ -47,7 +49,7 @@ def _check_branches(instance: Instance) -> None:
     for section, cls in instance.sections:
         scope = Scope(instance.context, cls, instance, initial=section.initial, pure=not section.initial)
         for item in () if section.algorithm else _in_branches(section.items):
-            _check(lambda item=item, scope=scope: flatten_item(item, scope, Collected()), instance)
+            _check(partial(flatten_item, item, scope, Collected()), instance)
 
 
 def _in_branches(items: list[ast.Item]) -> Iterator[ast.Item]:
@@ -58,8 +60,8 @@ def _in_branches(items: list[ast.Item]) -> Iterator[ast.Item]:
             yield from (item for item in body if not isinstance(item, ast.If))
 
 
-def _check_component(node: Node) -> None:
-    for part in _parts(node):
+def _check_component(instance: Instance, element: Element) -> None:
+    for part in _parts(instance.build(element)):
         if isinstance(part, Leaf):
             flatten_variables(part, flat.FlatModel("", part.span, ""))
             continue
