@@ -51,6 +51,7 @@ static void copy(const rt_session *s, double *v, double *xdot, const double *v_f
 static void set_out(rt_session *s, double t, double *v, double *xdot) {
   rt_branches *b = &s->branches;
   b->t = t;
+  b->reached = NAN;
   copy(s, b->v, b->xdot, v, xdot);
   for (int k = 0; k < s->d->n_branches; k++)
     b->size[k] = rt_max(b->size[k], fabs(*kept(&s->d->branches[k], v, xdot)));
@@ -167,8 +168,22 @@ static rt_status reach(rt_session *s, double t) {
   copy(s, b->v_reached, b->xdot_reached, b->v, b->xdot);
   if ((b->pieces += PIECES_PER_STEP) > MOST_PIECES) b->pieces = MOST_PIECES;
   rt_status status = follow(s, b->t, t);
+  b->reached = status ? NAN : t;
   s->data.contraction = (mdl_contraction){0};
   if (s->d->n_u) rt_inputs_at(s, s->t);
+  return status;
+}
+
+/* To `end`, which a step that is not the session's yet has come to: v_reached there. Nothing has failed but the step,
+ * unless the branch ends. */
+rt_status rt_branch_reach(rt_session *s, double end) {
+  double begin = s->t;
+  rt_failure before = s->failure;
+  s->t = end;
+  rt_status status = reach(s, end);
+  if (s->branches.ended) return status;
+  s->t = begin;
+  s->failure = before;
   return status;
 }
 
@@ -186,13 +201,13 @@ rt_status rt_branch_row(rt_session *s, double t, double *xdot, double *v) {
 }
 
 /* To the end of the last step, or to the event that cut it short. Where the step has found another solution there, the
- * run goes on from that of the branch. The step has passed the error test, of which its start on the branch is part. A
- * multistep method solves the equations by itself: of how it came to their solution nothing is known. */
+ * run goes on from that of the branch. A multistep method solves the equations by itself: of how it came to their
+ * solution nothing is known. */
 rt_status rt_branch_follow(rt_session *s) {
   rt_branches *b = &s->branches;
   bool certain = !s->method->multistep && s->data.contraction.ratio <= MDL_CONTRACTS;
   if (!s->d->n_branches || certain || !(s->t > b->t)) return RT_OK;
-  rt_status status = reach(s, s->t);
+  rt_status status = b->reached == s->t ? RT_OK : reach(s, s->t);
   if (status) return status;
   copy(s, b->v_tried, b->xdot_tried, s->data.v, s->data.xdot);
   if (changed(s, -1) <= 1) return RT_OK;

@@ -11,6 +11,7 @@ typedef struct {
   double *v, *xdot;                    /* [n_v], [n_x] and these values; */
   double *v_reached, *xdot_reached;    /* those while it is followed, */
   double *v_tried, *xdot_tried, *size; /* and of a point that is tried; [n_branches] largest values so far */
+  double reached;                      /* where those are that have been reached; */
   long pieces;                         /* that may still be looked at */
   bool ended;                          /* by a fold, at the session's present point */
 } rt_branches;
@@ -18,6 +19,7 @@ typedef struct {
 void rt_branch_start(rt_session *s);
 void rt_branch_begin(rt_session *s);
 rt_status rt_branch_row(rt_session *s, double t, double *xdot, double *v);
+rt_status rt_branch_reach(rt_session *s, double end);
 rt_status rt_branch_follow(rt_session *s);
 
 #endif

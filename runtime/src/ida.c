@@ -160,16 +160,15 @@ static rt_status fail(rt_session *s, rt_ida *m, int flag) {
   return rt_fail_collapse(s, h, flag == IDA_ERR_FAIL ? "the error test fails" : "it gave up");
 }
 
-/* Whether the explicit form, from the algebraic unknowns z of the residual form on, gives others: by more than ten
- * times their tolerance. The branch that IDA's Newton method followed has ended (a fold), and it has come to rest
- * behind. Values of linear equations differ by rounding alone, however tight the tolerance; and so do those of
- * nonlinear ones, up to the root of rounding where two branches meet. */
-static bool has_jumped(const rt_session *s, const double *z) {
+/* Whether algebraic unknowns z of the residual form are others than those in v, which the explicit form gives: by more
+ * than ten times their tolerance. Values of linear equations differ by rounding alone, however tight the tolerance; and
+ * so do those of nonlinear ones, up to the root of rounding where two branches meet. */
+static bool differ(const rt_session *s, const double *z, const double *v) {
   const double *nominal = s->nominal + s->d->n_x, *atol = s->atol + s->d->n_x;
   for (int k = 0; k < s->d->n_z && !s->undetermined; k++) {
     if (s->d->z_branches && !s->d->z_branches[k]) continue;
     double least = rt_max(10 * (s->options.rtol * fabs(z[k]) + atol[k]), alike * rt_max(fabs(z[k]), nominal[k]));
-    if (fabs(s->data.v[s->d->z_index[k]] - z[k]) > least) return true;
+    if (fabs(v[s->d->z_index[k]] - z[k]) > least) return true;
   }
   return false;
 }
@@ -192,7 +191,21 @@ static double test_guards(rt_session *s, rt_ida *m, double end) {
   return excess;
 }
 
-/* One step, again from its start with smaller tolerances while guards ask for it. */
+/* Whether a step to `end` has left the branch of a nonlinear block on which it began: IDA's prediction came nearer to
+ * another one, and over the step the derivatives there move a state by more than its tolerance; or the step is too long
+ * to follow the branch. Where that ends, so does the run. */
+static bool strays(rt_session *s, rt_ida *m, double end, rt_status *status) {
+  if (!s->d->n_branches) return false;
+  rt_status reached = rt_branch_reach(s, end);
+  if (s->branches.ended) *status = reached;
+  if (reached) return !*status && end - s->t > 2 * rt_time_resolution(s);
+  const double *x = N_VGetArrayPointer(m->y), *xdot = N_VGetArrayPointer(m->yp), *branch = s->branches.xdot_reached;
+  for (int i = 0; i < s->d->n_x; i++)
+    if (fabs(xdot[i] - branch[i]) * (end - s->t) > s->options.rtol * fabs(x[i]) + s->atol[i]) return true;
+  return false;
+}
+
+/* One step, again from its start while it strays, or with smaller tolerances while guards ask for it. */
 static int attempt(rt_session *s, rt_ida *m, double limit, sunrealtype *t, rt_status *status) {
   IDASetStopTime(m->ida, limit);
   if (m->known < RT_IDA_STARTS) {
@@ -204,9 +217,11 @@ static int attempt(rt_session *s, rt_ida *m, double limit, sunrealtype *t, rt_st
     int flag = IDASolve(m->ida, limit, t, m->y, m->yp, IDA_ONE_STEP);
     double end = flag == IDA_TSTOP_RETURN ? limit : *t;
     if (flag >= 0) rt_ida_remember(s, m, end, N_VGetArrayPointer(m->y), false);
-    if (flag < 0 || !(test_guards(s, m, end) > 1)) return flag;
+    if (flag < 0) return flag;
+    bool rough = test_guards(s, m, end) > 1;
+    if (!rough && !strays(s, m, end, status)) return flag;
     s->result->counters.error_test_fails++;
-    if (m->share * s->options.rtol < finest) *status = rt_swing_fail(s, end);
+    if (rough && m->share * s->options.rtol < finest) *status = rt_swing_fail(s, end);
     m->longest = 0.25 * (end - s->t);
     if (*status || (*status = restart(s, m))) return flag;
     m->longest = INFINITY;
@@ -232,7 +247,7 @@ static rt_status step(rt_session *s, void *p, double limit) {
   s->t = flag == IDA_TSTOP_RETURN ? limit : t;
   if (rt_rhs(s, s->t, s->data.x, s->data.xdot, s->data.v) || rt_check_finite(s, s->data.xdot))
     return rt_fail_model(s, s->t, "evaluating the explicit form");
-  if (has_jumped(s, z)) s->pending |= RT_PENDING_BRANCH;
+  if (differ(s, z, s->data.v)) s->pending |= RT_PENDING_BRANCH;
   return rt_ida_tangent_step(s, m);
 }
 

@@ -126,7 +126,8 @@ rt_status rt_advance(rt_session *s) {
   if (!status) status = move_on(s);
   if (!status) status = rt_find_state_event(s);
   if (!status) status = rt_tangent_follow(s);
-  if (!status && (status = rt_branch_follow(s)) && s->branches.ended) (void)rt_record_step(s); /* up to there */
+  if (!status) status = rt_branch_follow(s);
+  if (status && s->branches.ended) (void)rt_record_step(s); /* up to there */
   if (!status) status = rt_delays_follow(s);
   if (!status) status = rt_transports_follow(s);
   if (!status) status = rt_check_asserts(s);

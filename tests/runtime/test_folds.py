@@ -165,3 +165,25 @@ def test_rounding_of_linear_equations_restarts_nothing(tmp_path: Path, p: float,
         assert result.complete, result.failure
         assert result.counters["restarts"] == 0
         assert np.abs(result["x"] - np.exp(-result.time)).max() < 10 * rtol
+
+
+NEAR = """model Near "The branch of -x comes as near as 2 sqrt(e), and is no solution: it is never reached"
+  parameter Real e = 1e-6;
+  Real x(start=1), y(start=0, fixed=true);
+equation
+  x^2 = (time - 1)^2 + e;
+  der(y) = x;
+end Near;
+"""
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+@pytest.mark.parametrize("e", [1e-4, 1e-6, 1e-9, 1e-12])
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6, 1e-8])
+def test_no_step_strays_to_a_branch_that_comes_near(tmp_path: Path, rtol: float, e: float, solver: str) -> None:
+    """The integral of sqrt(s^2 + e) from -1 to 1. Steps err by about their tolerance each, some 30 near the bend."""
+    result = runtime.simulate(compiled(tmp_path, NEAR), solver=solver, stop=2.0, rtol=rtol, parameters={"e": e})
+    assert result.complete, result.failure
+    exact = np.sqrt(1 + e) + e * np.arcsinh(1 / np.sqrt(e))
+    assert result["y"][-1] == pytest.approx(exact, abs=30 * rtol)
+    assert np.all(result["x"] > 0)
