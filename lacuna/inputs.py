@@ -22,13 +22,15 @@ ROUNDING = 1e-12  # of times that were written with all their digits
 class Measured(RecordedInput):
     """Samples of a file: `values` in `unit`, which is SI, or "" where the file says none. `inferred`: the unit that the
     name of the column ends like, if nothing else says one; it is believed where the input is of that quantity.
-    `unread`: what the file says is the unit, and is none. `gap`: the longest stretch in which samples lack, s."""
+    `unread`: what the file says is the unit, and is none. `gap`: the longest stretch in which samples lack, s. `notes`:
+    what was assumed of the file."""
 
     unit: str = ""
     source: str = ""
     inferred: str = ""
     unread: str = ""
     gap: tuple[float, float] | None = None
+    notes: tuple[str, ...] = ()
 
 
 Input = float | RecordedInput | tuple[Any, Any]
@@ -54,14 +56,18 @@ def recorded(file: str | Path, column: str, *, hold: bool = False) -> RecordedIn
     values, inferred = channel.values[present] * factor, "" if said else channel.unit
     source, unread = f"{file}: {column}", channel.head.unread
     gap = _longest_gap(channel.time, present)
-    return Measured(channel.time[present], values, "hold" if hold else "linear", unit, source, inferred, unread, gap)
+    kind = "hold" if hold else "linear"
+    return Measured(channel.time[present], values, kind, unit, source, inferred, unread, gap, tuple(found.notes))
 
 
 def _longest_gap(time: np.ndarray, present: np.ndarray) -> tuple[float, float] | None:
     """Begin and end of the longest stretch of empty cells that is more than a sample of the channel's own rate, which
     may be lower than that of the file."""
     kept, spacing = np.flatnonzero(present), np.diff(time[present])
-    lacking = (np.diff(kept) > 1) & (spacing > 1.5 * np.median(spacing)) if spacing.size else np.zeros(0, bool)
+    alone = spacing.size == 1  # two samples have no rate that could be lower
+    lacking = (
+        (np.diff(kept) > 1) & ((spacing > 1.5 * np.median(spacing)) | alone) if spacing.size else np.zeros(0, bool)
+    )
     if not lacking.any():
         return None
     longest = int(np.argmax(np.where(lacking, spacing, 0.0)))
@@ -129,6 +135,7 @@ def assumed(given: Mapping[str, Input], variables: Mapping[str, Variable]) -> li
     name alone."""
     said = []
     for name, value in given.items():
+        said += [f"warning: input {name}: {note}" for note in value.notes] if isinstance(value, Measured) else []
         if isinstance(value, Measured) and value.gap is not None:
             bridged = "held" if value.interpolation == "hold" else "bridged by a straight line"
             between = f"between {value.gap[0]:g} and {value.gap[1]:g} s, the longest gap"

@@ -198,7 +198,8 @@ class Result:
 
     @cached_property
     def warnings(self) -> list[str]:
-        """Asserts of level warning that were violated, each with the instant and the values of the first time."""
+        """Asserts of level warning that were violated, each with the instant and the values of the first time; unknowns
+        that the equations leave open."""
         count = ctypes.c_size_t()
         entries = self._lib.rt_result_warnings(self._handle, ctypes.byref(count))
         return [entries[i].decode() for i in range(count.value)]

@@ -260,4 +260,7 @@ class _Group:
         _, use, other, replaced, severity, low, high = (np.array(c) for c in zip(*self.rows, strict=True))
         doubts = doubts_of(file, [row[0] for row in self.rows], use, other, unit)
         replaced = replaced.astype(bool)
+        if math.isnan(severity[-1]):
+            last = f"{file}:{self.rows[-1][0]}: the last test of {actuator} has no severity"
+            self.warnings.append(f"{last}; what is forecast begins there, at {use[-1]:g} {unit}")
         return History(actuator, unit, use, severity, low, high, replaced, fault, tuple(self.warnings), doubts)

@@ -64,6 +64,7 @@ class Library:
         self.meanings: dict[tuple[int, str, bool, bool], ast.Class] = {}  # see find_first in flatten/names/scope.py
         self._paths: dict[str, int] = {}
         self.resolving: set[int] = set()  # classes whose bases are being looked up, by identity
+        self.defining: set[int] = set()  # short definitions whose bases are being followed
         self.kept: list[object] = []  # whose identities are keys of those above
 
     def _package(self, folder: Path) -> ast.Class:

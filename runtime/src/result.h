@@ -26,7 +26,8 @@ struct rt_result {
   rt_flag *flags;
   size_t n_warnings;
   char **warnings;
-  bool lost; /* an event, a flag or a warning that there was no memory for */
+  bool told_open; /* which unknowns the equations do not determine */
+  bool lost;      /* an event, a flag or a warning that there was no memory for */
 };
 rt_result *rt_result_new(int columns, int sensitivities, int parameters, size_t capacity);
 bool rt_result_reserve(rt_result *r, size_t rows);

@@ -8,6 +8,7 @@
  * depend on the others, makes it regular: as the equations do not contradict each other, their solution is none but
  * that with no change of this unknown. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -131,6 +132,19 @@ static rt_status find_held(rt_session *s) {
   return status;
 }
 
+/* Said once in a run: the values that stand in the results are one choice of many. `v_trial` is a point of another. */
+static void tell(rt_session *s, int equation) {
+  char names[200] = "", said[500];
+  name_open(s, names, sizeof names);
+  if (s->result->told_open || !names[0]) return;
+  s->result->told_open = true;
+  const mdl_equation *e = &s->d->equations[equation];
+  snprintf(said, sizeof said,
+           "%s:%d: the equations leave open %s from time %.9g s on; the solution next to zero is taken", e->file,
+           e->line, names, s->t);
+  rt_result_warn(s->result, said);
+}
+
 /* At the start and after an event, with x' and v of the present mode: does it leave unknowns open, and may it? */
 rt_status rt_follow_undetermined(rt_session *s) {
   mdl_data *m = &s->data;
@@ -150,6 +164,7 @@ rt_status rt_follow_undetermined(rt_session *s) {
     name_open(s, names, sizeof names);
     return fail(s, equation, rt_state_variable(s, i), ", and what it leaves open decides the derivative of ", names);
   }
+  tell(s, equation);
   return find_held(s);
 }
 

@@ -176,3 +176,16 @@ def test_samples_that_lack_are_told(tmp_path: Path, hold: bool, how: str) -> Non
         said = [w for w in model.simulate(inputs={"u": driven}, stop=2.0).warnings if "lacks samples" in w]
         assert len(said) == gap
         assert all(f"between 0.4 and 1 s, the longest gap; they are {how}" in w for w in said)
+
+
+def test_what_was_assumed_of_a_file_is_told(tmp_path: Path) -> None:
+    """Two samples have no rate that the others could lack by; a column that nobody calls time may be none."""
+    model = lacuna.load(turn(tmp_path, "1"))
+    (tmp_path / "two.csv").write_text("time,u\n0,0\n1,\n2,\n3,8\n")
+    (tmp_path / "timeless.csv").write_text("k,u\n0,0\n1,1\n2,2\n3,8\n")
+    said = {
+        name: " ".join(model.simulate(inputs={"u": lacuna.recorded(tmp_path / name, "u")}, stop=2.0).warnings)
+        for name in ("two.csv", "timeless.csv")
+    }
+    assert "lacks samples, between 0 and 3 s" in said["two.csv"]
+    assert "`k` was taken for time" in said["timeless.csv"] and "taken for time" not in said["two.csv"]

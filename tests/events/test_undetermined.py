@@ -101,3 +101,20 @@ def test_what_is_open_is_no_answer_elsewhere(tmp_path: Path, solver: str, case: 
     values, said = REFUSED[case]
     result = simulated(tmp_path, OPEN.format(**values), solver=solver, stop=1.0)
     assert not result.complete and said in str(result.failure)
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+def test_what_is_left_open_is_told_once(tmp_path: Path, solver: str) -> None:
+    text = """model Share
+  Real a, b, x(start=1, fixed=true);
+equation
+  a + b = time;
+  2*a + 2*b = 2*time;
+  der(x) = -x;
+end Share;
+"""
+    result = simulated(tmp_path, text, solver=solver, stop=1.0)
+    assert result.complete, result.failure
+    np.testing.assert_allclose(result["a"] + result["b"], result.time, atol=1e-9)
+    (said,) = result.warnings
+    assert "the equations leave open a, b from time 0 s on" in said and "Share.mo:" in said

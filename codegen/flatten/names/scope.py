@@ -55,10 +55,24 @@ def base_classes(library: Library, cls: ast.Class) -> list[ast.Class]:
     if known is None:
         found = [base_class(library, cls, *clause) for clause in base_clauses(cls)]
         known = [f for f in found if f is not None]
+        _refuse_circle(library, cls, known if cls.alias is not None else [])
         if len(known) == len(found):
             library.bases[id(cls)] = known
             library.kept.append(cls)
     return known
+
+
+def _refuse_circle(library: Library, cls: ast.Class, bases: list[ast.Class]) -> None:
+    """Raises R011 where short definitions lead back to `cls` (5.6)."""
+    one = id(cls.origin or cls)
+    if one in library.defining:
+        raise Diagnostic("R011", f"{cls.name} is defined by itself", cls.span, "break the circle")
+    library.defining.add(one)
+    try:
+        for base in (b for b in bases if b.alias is not None):
+            base_classes(library, base)
+    finally:
+        library.defining.discard(one)
 
 
 def base_clauses(cls: ast.Class) -> list[tuple[ast.Ref, ast.Modification]]:
@@ -258,9 +272,8 @@ def class_inside(library: Library, cls: ast.Class, name: str, ref: ast.Ref) -> a
 def refuse_protected(library: Library, cls: ast.Class, found: ast.Class, ref: ast.Ref) -> None:
     """Raises R017 for a class of `cls` that is protected, or inherited by a protected extends clause (4.1, 7.1.2)."""
     if found.protected or _hidden_by_extends(library, cls, found.name):
-        error = Diagnostic(
-            "R017", f"{found.name} is protected in {cls.name}", ref.span, "make it public to use it here"
-        )
+        message, hint = f"{found.name} is protected in {cls.name}", "make it public to use it here"
+        error = Diagnostic("R017", message, ref.span, hint)
         error.notes.append((found.span, "declared here"))
         raise error
 

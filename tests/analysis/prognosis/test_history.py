@@ -103,7 +103,7 @@ def test_a_refused_recording_is_a_missing_test_with_a_warning(tmp_path):
         raise AnalysisError("another actuator")
 
     (h,) = read_histories(tmp_path, refuse)
-    assert np.isnan(h.severity).all() and len(h.warnings) == 2 and "another actuator" in h.warnings[0]
+    assert np.isnan(h.severity).all() and len(h.warnings) == 3 and "another actuator" in h.warnings[0]
 
 
 def table(use, hours=None):
@@ -132,3 +132,12 @@ def test_an_interval_without_its_severity_is_refused(tmp_path, severity):
     """The test was left out without a word."""
     with pytest.raises(AnalysisError, match=r"history.csv:4: low and high without their severity"):
         read_histories(written(tmp_path, GOOD.replace("A,15,0.03,", f"A,15,{severity},")))
+
+
+def test_a_last_test_without_a_severity_is_told(tmp_path):
+    head = "actuator,cycles,severity,low,high\nA,5,0.1,0.05,0.15\n"
+    (seen,) = read_histories(written(tmp_path, head + "A,9,0.1,0.05,0.15\n"))
+    (open_end,) = read_histories(written(tmp_path, head + "A,9,,,\n"))
+    assert seen.warnings == ()
+    assert "history.csv:3: the last test of A has no severity" in open_end.warnings[0]
+    assert "at 9 cycles" in open_end.warnings[0]

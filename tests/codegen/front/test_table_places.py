@@ -36,3 +36,10 @@ def test_a_table_of_another_size_than_its_head_says_is_refused(tmp_path: Path, r
     with pytest.raises(FileError, match=r"tab has \d+ numbers, its head says 3x2"):
         read_matrix(path, "tab")
     assert read_matrix(path, "other") == [[7, 8]]
+
+
+def test_two_tables_of_one_name_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "tables.txt"
+    path.write_text("#1\ndouble tab(1,2)\n0 1\ndouble tab(1,2)\n0 5\n", encoding="utf-8")
+    with pytest.raises(FileError, match="two tables are called tab"):
+        read_matrix(path, "tab")

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.equations.asserts import lower_assert
 from lacuna.codegen.flatten.equations.effects import effect
+from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.lower import lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.functions.fitting import blank, declared_sizes, fit, typed, unknown_target
 from lacuna.codegen.flatten.functions.kept.parts import matched, parts, variables_of
@@ -52,7 +53,8 @@ class Writer:
             there = local.around_default(scope)
             given: Value = fit(local, lower(default, there), scope, span) if default else blank(local, scope)
         else:
-            shape = declared_sizes(local, scope, None)
+            sized = default is not None and any(isinstance(d, ast.Colon) for d in local.declaration.dimensions)
+            shape = declared_sizes(local, scope, lower(default, local.around_default(scope)) if sized else None)
             given = local_value(local.name, local.type.primitive, shape)
         variables = variables_of(local.name, local.type, given, scope.context, span)
         self.declare(local.name, variables)
@@ -115,29 +117,48 @@ class Writer:
             result.append(flat.If(branches, item.span))
 
     def _for(self, item: ast.For, iterators: list[ast.Iterator], result: list[flat.Statement]) -> None:
-        """Over a range the loop is kept; over an array it is unrolled, in a loop of one round if a break leaves it."""
+        """Over a range the loop is kept, unless sizes in it follow its variable; over an array it is unrolled."""
         if not iterators:
             result += self.block(item.body)
             return
         first, *rest = iterators
+        outer, before = self.scope, (dict(self.function.shapes), dict(self.function.types))
+        try:
+            if isinstance(first.range, ast.Range):
+                result.append(self._kept(item, first.range, first, rest))
+            else:
+                self._unrolled(item, iterate(first, outer, item.body), first, rest, result)
+        except AtRunTime:
+            bounds = first.range.first, first.range.step, first.range.last
+            if any(b is not None and lower_scalar(b, outer, INTEGER).op != "const" for b in bounds):
+                raise
+            self.scope = outer
+            self.function.shapes, self.function.types = before
+            self._unrolled(item, iterate(first, outer, item.body), first, rest, result)
+        finally:
+            self.scope = outer
+
+    def _kept(self, item: ast.For, bounds: ast.Range, first: ast.Iterator, rest: list[ast.Iterator]) -> flat.For:
+        low, high = (lower_scalar(b, self.scope, INTEGER) for b in (bounds.first, bounds.last))
+        step = lower_scalar(bounds.step, self.scope, INTEGER) if bounds.step else ex.const(1)
+        name = first.name if first.name not in self.function.types else self._fresh(first.name)
+        self.scope = self.scope.with_locals(**{first.name: ex.var(name, INTEGER)})
+        body: list[flat.Statement] = []
+        self._for(item, rest, body)
+        return flat.For(name, low, step, high, body, item.span)
+
+    def _unrolled(
+        self, item: ast.For, values: Iterable[Value], first: ast.Iterator, rest: list[ast.Iterator],
+        result: list[flat.Statement],
+    ) -> None:  # fmt: skip
+        """Round by round, in a loop of one round if a break leaves it."""
+        rounds: list[flat.Statement] = []
         outer = self.scope
-        bounds = first.range
-        if isinstance(bounds, ast.Range):
-            low, high = (lower_scalar(b, outer, INTEGER) for b in (bounds.first, bounds.last))
-            step = lower_scalar(bounds.step, outer, INTEGER) if bounds.step else ex.const(1)
-            name = first.name if first.name not in self.function.types else self._fresh(first.name)
-            self.scope = outer.with_locals(**{first.name: ex.var(name, INTEGER)})
-            body: list[flat.Statement] = []
-            self._for(item, rest, body)
-            result.append(flat.For(name, low, step, high, body, item.span))
-        else:
-            rounds: list[flat.Statement] = []
-            for value in iterate(first, outer, item.body):
-                self.scope = outer.with_locals(**{first.name: value})
-                self._for(item, rest, rounds)
-            once, left = ex.const(1), not rest and _is_left(item.body)
-            result += [flat.For(self._fresh(first.name), once, once, once, rounds, item.span)] if left else rounds
-        self.scope = outer
+        for value in values:
+            self.scope = outer.with_locals(**{first.name: value})
+            self._for(item, rest, rounds)
+        once, left = ex.const(1), not rest and _is_left(item.body)
+        result += [flat.For(self._fresh(first.name), once, once, once, rounds, item.span)] if left else rounds
 
     def _fresh(self, stem: str) -> str:
         self.counter += 1

@@ -39,15 +39,14 @@ def _text(text: str, name: str) -> list[list[float]]:
     lines = text.splitlines()
     if not lines or lines[0].strip()[:2] != "#1":
         raise FileError("a text file of tables starts with #1")
-    found = []
-    for at, line in enumerate(lines):
-        head = _HEAD.match(line)
-        if head is None:
-            continue
-        found.append(head[1])
-        if head[1] == name:
-            return _numbers(lines[at + 1 :], name, int(head[2]), int(head[3]))
-    raise FileError(f"there is no table {name}; the file has {', '.join(found) or 'none'}")
+    heads = [(at, head) for at, line in enumerate(lines) if (head := _HEAD.match(line))]
+    meant = [(at, head) for at, head in heads if head[1] == name]
+    if not meant:
+        raise FileError(f"there is no table {name}; the file has {', '.join(h[1] for _, h in heads) or 'none'}")
+    if len(meant) > 1:
+        raise FileError(f"two tables are called {name}")
+    at, head = meant[0]
+    return _numbers(lines[at + 1 :], name, int(head[2]), int(head[3]))
 
 
 def _numbers(lines: list[str], name: str, rows: int, columns: int) -> list[list[float]]:
