@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -56,7 +56,7 @@ def recorded(file: str | Path, column: str, *, hold: bool = False) -> RecordedIn
     values, inferred = channel.values[present] * factor, "" if said else channel.unit
     source, unread = f"{file}: {column}", channel.head.unread
     gap = _longest_gap(channel.time, present)
-    kind = "hold" if hold else "linear"
+    kind: Literal["linear", "hold"] = "hold" if hold else "linear"
     return Measured(channel.time[present], values, kind, unit, source, inferred, unread, gap, tuple(found.notes))
 
 

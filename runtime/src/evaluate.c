@@ -30,6 +30,7 @@ int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v) {
   if (s->d->n_u) rt_inputs_at(s, t);
   s->result->counters.rhs++;
   s->data.undetermined = s->data.unsettled = 0;
+  s->data.orientation = v == s->data.v ? s->branches.orientation : s->branches.aside;
   int status = s->d->rhs(&s->data, t, x, xdot, v);
   if (v == s->data.v && !s->data.brief) s->unsettled = s->data.unsettled;
   return status;

@@ -176,7 +176,7 @@ rt_status rt_iterate_event(rt_session *s) {
 }
 
 /* An event is futile if its guards have hardly moved since they last switched, or time has not. Many in a row are
- * chattering. */
+ * chattering. A guard that the event itself sets apart (a counter's next threshold) comes back all the way. */
 static rt_status check_chattering(rt_session *s, double since) {
   bool futile = s->pending == RT_PENDING_STATE;
   int flipped = 0;
@@ -184,7 +184,7 @@ static rt_status check_chattering(rt_session *s, double since) {
     if (!s->flip[r]) continue;
     flipped = r;
     if (s->g_travel[r] > 100 * rt_hysteresis(s, r) && since > s->clock.tolerance) futile = false;
-    s->g_travel[r] = 0;
+    s->g_travel[r] = fabs(s->g[r]);
   }
   s->futile_events = futile ? s->futile_events + 1 : 0;
   if (s->futile_events <= MAX_FUTILE_EVENTS) return RT_OK;

@@ -47,34 +47,41 @@ static void copy(const rt_session *s, double *v, double *xdot, const double *v_f
   memcpy(xdot, xdot_from, (size_t)s->d->n_x * sizeof *xdot);
 }
 
+static void turn(const rt_session *s, double *side, const double *from) {
+  memcpy(side, from, (size_t)s->d->n_equations * sizeof *side);
+}
+
 /* The branch goes on from here. */
-static void set_out(rt_session *s, double t, double *v, double *xdot) {
+static void set_out(rt_session *s, double t, double *v, double *xdot, const double *side) {
   rt_branches *b = &s->branches;
   b->t = t;
+  turn(s, b->facing, side);
   b->reached = NAN;
   copy(s, b->v, b->xdot, v, xdot);
   for (int k = 0; k < s->d->n_branches; k++)
     b->size[k] = rt_max(b->size[k], fabs(*kept(&s->d->branches[k], v, xdot)));
-  s->data.contraction.ratio = 0;
+  s->data.contraction = (mdl_contraction){0};
 }
 
 /* At the start of a run. */
 void rt_branch_start(rt_session *s) {
   s->branches.pieces = MOST_PIECES;
   memset(s->branches.size, 0, (size_t)s->d->n_branches * sizeof(double));
+  memset(s->branches.facing, 0, (size_t)s->d->n_equations * sizeof(double));
   rt_branch_begin(s);
 }
 
 /* After an event and at an accepted point. */
 void rt_branch_begin(rt_session *s) {
   s->branches.ended = false;
-  if (s->d->n_branches) set_out(s, s->t, s->data.v, s->data.xdot);
+  if (s->d->n_branches) set_out(s, s->t, s->data.v, s->data.xdot, s->branches.orientation);
 }
 
 /* The point (t, x_trial) from the values reached, in v_tried; 0 found. `only`: 0, or 1 + the block to watch. */
 static int look_here(rt_session *s, double t, int only) {
   rt_branches *b = &s->branches;
   copy(s, b->v_tried, b->xdot_tried, b->v_reached, b->xdot_reached);
+  turn(s, b->aside, b->facing_reached);
   s->data.contraction = (mdl_contraction){.only = only};
   return rt_rhs(s, t, s->x_trial, b->xdot_tried, b->v_tried);
 }
@@ -143,8 +150,9 @@ static rt_status fail(rt_session *s, double t, int equation) {
 static rt_status follow(rt_session *s, double from, double to) {
   rt_branches *b = &s->branches;
   bool found = !look(s, to, 0), contracts = s->data.contraction.ratio <= MDL_CONTRACTS;
+  bool turned = s->data.contraction.turned;
   if (!found && contracts) return rt_fail_model(s, to, "following a branch"); /* something else has no value */
-  if (!contracts && b->pieces > 0 && (!found || changed(s, -1) > 1)) {
+  if (!contracts && b->pieces > 0 && (!found || turned || changed(s, -1) > 1)) {
     double middle = from + 0.5 * (to - from);
     int equation = s->data.contraction.equation;
     b->pieces--;
@@ -160,16 +168,20 @@ static rt_status follow(rt_session *s, double from, double to) {
   }
   if (!found) return rt_fail_model(s, to, "following a branch");
   copy(s, b->v_reached, b->xdot_reached, b->v_tried, b->xdot_tried);
+  turn(s, b->facing_reached, b->aside);
   return RT_OK;
 }
 
 static rt_status reach(rt_session *s, double t) {
   rt_branches *b = &s->branches;
   copy(s, b->v_reached, b->xdot_reached, b->v, b->xdot);
+  turn(s, b->facing_reached, b->facing);
+  s->data.facing = b->facing_reached;
   if ((b->pieces += PIECES_PER_STEP) > MOST_PIECES) b->pieces = MOST_PIECES;
   rt_status status = follow(s, b->t, t);
   b->reached = status ? NAN : t;
   s->data.contraction = (mdl_contraction){0};
+  s->data.facing = b->facing;
   if (s->d->n_u) rt_inputs_at(s, s->t);
   return status;
 }
@@ -187,6 +199,40 @@ rt_status rt_branch_reach(rt_session *s, double end) {
   return status;
 }
 
+/* Whether a relation has changed by the end of a step: what is solved behind its crossing counts for nothing. */
+static bool crosses(rt_session *s, double end) {
+  rt_branches *b = &s->branches;
+  if (!s->d->n_rel) return false;
+  copy(s, b->v_reached, b->xdot_reached, b->v, b->xdot);
+  turn(s, b->facing_reached, b->facing);
+  if (look(s, end, 0) || s->d->roots(&s->data, end, s->x_trial, b->xdot_tried, b->v_tried, s->g_trial)) return false;
+  for (int r = 0; r < s->d->n_rel; r++)
+    if (rt_is_state_relation(s, r) && (s->data.rel[r] ? s->g_trial[r] <= 0 : s->g_trial[r] > 0)) return true;
+  return false;
+}
+
+/* Whether a step to `end` (x, x' there) has left the branch of a nonlinear block on which it began: a solution of
+ * another one was nearer, and over the step the derivatives there move a state by more than its tolerance; or one was met
+ * on the way (`turned`); or the step is too long to follow the branch. Where that ends, so does the run. */
+bool rt_branch_strays(rt_session *s, double end, const double *x, const double *xdot, bool turned, rt_status *status) {
+  if (!s->d->n_branches || crosses(s, end)) return false;
+  rt_status reached = rt_branch_reach(s, end);
+  if (s->branches.ended) *status = reached;
+  if (reached || turned) return !*status && end - s->t > 2 * rt_time_resolution(s);
+  for (int i = 0; i < s->d->n_x; i++) {
+    double moved = fabs(xdot[i] - s->branches.xdot_reached[i]) * (end - s->t);
+    if (moved > s->options.rtol * fabs(x[i]) + s->atol[i]) return true;
+  }
+  return false;
+}
+
+/* A step has been given up: from where it began. */
+void rt_branch_retreat(rt_session *s) {
+  if (!s->d->n_branches) return;
+  turn(s, s->branches.orientation, s->branches.facing);
+  s->data.contraction = (mdl_contraction){0};
+}
+
 /* A row at t inside the last step. */
 rt_status rt_branch_row(rt_session *s, double t, double *xdot, double *v) {
   if (!s->d->n_branches || s->branches.ended) return RT_OK;
@@ -195,8 +241,9 @@ rt_status rt_branch_row(rt_session *s, double t, double *xdot, double *v) {
     if (status) return status;
     rt_inputs_at(s, t);
     copy(s, v, xdot, s->branches.v_reached, s->branches.xdot_reached);
+    turn(s, s->branches.aside, s->branches.facing_reached);
   }
-  set_out(s, t, v, xdot);
+  set_out(s, t, v, xdot, s->branches.aside);
   return RT_OK;
 }
 
@@ -212,6 +259,7 @@ rt_status rt_branch_follow(rt_session *s) {
   copy(s, b->v_tried, b->xdot_tried, s->data.v, s->data.xdot);
   if (changed(s, -1) <= 1) return RT_OK;
   copy(s, s->data.v, s->data.xdot, b->v_reached, b->xdot_reached);
+  turn(s, b->orientation, b->facing_reached);
   if (s->method->multistep) s->pending |= RT_PENDING_BRANCH;
   return RT_OK;
 }

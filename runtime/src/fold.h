@@ -12,6 +12,8 @@ typedef struct {
   double *v_reached, *xdot_reached;    /* those while it is followed, */
   double *v_tried, *xdot_tried, *size; /* and of a point that is tried; [n_branches] largest values so far */
   double reached;                      /* where those are that have been reached; */
+  double *facing, *facing_reached;     /* [n_equations] sides (mdl_data.facing) at the one and the other; */
+  double *orientation, *aside;         /* at the session's point, and at the last other point looked at */
   long pieces;                         /* that may still be looked at */
   bool ended;                          /* by a fold, at the session's present point */
 } rt_branches;
@@ -20,6 +22,8 @@ void rt_branch_start(rt_session *s);
 void rt_branch_begin(rt_session *s);
 rt_status rt_branch_row(rt_session *s, double t, double *xdot, double *v);
 rt_status rt_branch_reach(rt_session *s, double end);
+bool rt_branch_strays(rt_session *s, double end, const double *x, const double *xdot, bool turned, rt_status *status);
+void rt_branch_retreat(rt_session *s);
 rt_status rt_branch_follow(rt_session *s);
 
 #endif

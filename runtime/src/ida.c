@@ -191,20 +191,6 @@ static double test_guards(rt_session *s, rt_ida *m, double end) {
   return excess;
 }
 
-/* Whether a step to `end` has left the branch of a nonlinear block on which it began: IDA's prediction came nearer to
- * another one, and over the step the derivatives there move a state by more than its tolerance; or the step is too long
- * to follow the branch. Where that ends, so does the run. */
-static bool strays(rt_session *s, rt_ida *m, double end, rt_status *status) {
-  if (!s->d->n_branches) return false;
-  rt_status reached = rt_branch_reach(s, end);
-  if (s->branches.ended) *status = reached;
-  if (reached) return !*status && end - s->t > 2 * rt_time_resolution(s);
-  const double *x = N_VGetArrayPointer(m->y), *xdot = N_VGetArrayPointer(m->yp), *branch = s->branches.xdot_reached;
-  for (int i = 0; i < s->d->n_x; i++)
-    if (fabs(xdot[i] - branch[i]) * (end - s->t) > s->options.rtol * fabs(x[i]) + s->atol[i]) return true;
-  return false;
-}
-
 /* One step, again from its start while it strays, or with smaller tolerances while guards ask for it. */
 static int attempt(rt_session *s, rt_ida *m, double limit, sunrealtype *t, rt_status *status) {
   IDASetStopTime(m->ida, limit);
@@ -219,7 +205,7 @@ static int attempt(rt_session *s, rt_ida *m, double limit, sunrealtype *t, rt_st
     if (flag >= 0) rt_ida_remember(s, m, end, N_VGetArrayPointer(m->y), false);
     if (flag < 0) return flag;
     bool rough = test_guards(s, m, end) > 1;
-    if (!rough && !strays(s, m, end, status)) return flag;
+    if (!rough && !rt_branch_strays(s, end, NV_DATA_S(m->y), NV_DATA_S(m->yp), false, status)) return flag;
     s->result->counters.error_test_fails++;
     if (rough && m->share * s->options.rtol < finest) *status = rt_swing_fail(s, end);
     m->longest = 0.25 * (end - s->t);

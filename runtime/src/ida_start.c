@@ -96,9 +96,11 @@ static double walk(rt_session *s, rt_ida *m, double length) {
   return largest;
 }
 
-/* The same, infinite too where the guards want a shorter way (swings.c). */
+/* The same, infinite too where the guards want a shorter way (swings.c), or the steps may have left the branch of a
+ * nonlinear block. */
 static double attempt(rt_session *s, rt_ida *m, double length) {
   double error = walk(s, m, length);
+  if (s->d->n_branches && s->data.contraction.ratio > MDL_CONTRACTS) return INFINITY;
   if (!(error <= within * accuracy) || !s->d->guard_rates) return error;
   s->dense.valid = false;
   return rt_swing_error(s, m->start_t[STEPS - 1], m->starter->error) <= 1 ? error : INFINITY;
@@ -107,6 +109,7 @@ static double attempt(rt_session *s, rt_ida *m, double length) {
 /* Nothing has been tried. */
 static void go_back(rt_session *s, rt_ida *m) {
   memcpy(s->data.v, s->v_before, (size_t)s->d->n_v * sizeof *s->data.v);
+  rt_branch_retreat(s);
   s->data.failure.kind = MDL_FAILURE_NONE;
   m->latest = m->first;
 }

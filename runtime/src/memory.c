@@ -47,7 +47,7 @@ static bool allocate_numbers(rt_session *s) {
   double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial,   &s->xdot_trial, &s->x_before,
                        &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,         &r->xdot,       &s->x_swept,
                        &s->x_start,     &b->xdot,  &b->xdot_reached,  &b->xdot_tried};
-  double **branches[] = {&b->size};
+  double **branches[] = {&b->size}, **sides[] = {&b->facing, &b->facing_reached, &b->orientation, &b->aside};
   double **sizes[] = {&s->nominal}, **division[] = {&s->division};
   double **guards[] = {&s->g,        &s->g_previous,    &s->g_low,         &s->g_trial, &s->g_before,
                        &s->g_oldest, &s->g_reach,       &s->bound,         &s->g_span,  &s->g_travel,
@@ -66,7 +66,8 @@ static bool allocate_numbers(rt_session *s) {
                           {division, COUNT(division), 2 * d->n_divisions},
                           {guards, COUNT(guards), d->n_rel},
                           {turns, COUNT(turns), d->n_phases},
-                          {branches, COUNT(branches), d->n_branches}};
+                          {branches, COUNT(branches), d->n_branches},
+                          {sides, COUNT(sides), d->n_equations}};
   s->n_numbers = 1;
   for (size_t i = 0; i < COUNT(groups); i++)
     s->n_numbers += groups[i].count * (size_t)groups[i].n;
@@ -74,6 +75,8 @@ static bool allocate_numbers(rt_session *s) {
   for (size_t i = 0; next && i < COUNT(groups); i++)
     for (size_t j = 0; j < groups[i].count; j++, next += groups[i].n)
       *groups[i].places[j] = next;
+  m->orientation = b->orientation;
+  m->facing = b->facing;
   s->g_nominal = s->nominal + d->n_x + d->n_z;
   s->delay_nominal = s->g_nominal + d->n_rel;
   return s->numbers != NULL;

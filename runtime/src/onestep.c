@@ -169,6 +169,18 @@ static double test_guards(rt_session *s, rt_onestep *o, double h, double square)
   return rt_max(square, swing * swing);
 }
 
+/* Whether a step that took other ways than Newton's to a root, or came to one of another branch, has left its branch,
+ * be it at a stage alone. */
+static bool strays(rt_session *s, rt_onestep *o, double h, rt_status *ended) {
+  if (!s->d->n_branches || s->data.contraction.ratio <= MDL_CONTRACTS) return false;
+  mdl_contraction seen = s->data.contraction;
+  o->h = h;
+  s->dense.valid = false;
+  bool strays = rt_branch_strays(s, s->t + h, o->x1, o->f1, seen.turned, ended);
+  s->data.contraction = seen;
+  return strays;
+}
+
 rt_status rt_onestep_step(rt_session *s, void *memory, double limit) {
   rt_onestep *o = memory;
   bool adaptive = !(s->options.step > 0), rejected = false;
@@ -186,6 +198,9 @@ rt_status rt_onestep_step(rt_session *s, void *memory, double limit) {
       status = rt_onestep_tangent_step(s, o, h, adaptive ? &square : NULL);
       if (status < 0 || (status > 0 && !adaptive)) return rt_fail_model(s, s->t, "stepping with sensitivities");
     }
+    rt_status ended = RT_OK;
+    if (status == 0 && square <= 1 && adaptive && strays(s, o, h, &ended)) square = INFINITY;
+    if (ended) return ended;
     if (status == 0 && square <= 1) {
       if (adaptive) control(o, h, square, rejected, h < o->h_next);
       accept(s, o, h == remaining ? limit : s->t + h, h);
@@ -194,6 +209,7 @@ rt_status rt_onestep_step(rt_session *s, void *memory, double limit) {
     s->result->counters.error_test_fails++;
     rejected = true;
     memcpy(s->data.v, s->v_before, (size_t)s->d->n_v * sizeof *s->data.v); /* a step too long may find other roots */
+    rt_branch_retreat(s);
     h *= status == 0 && isfinite(square) ? rt_max(least_cut, 0.9 * pow(square, -0.5 / o->scheme->order)) : 0.25;
     o->h_next = h;
     if (!(h > 0 && h >= rt_smallest_step(s))) return rt_fail_collapse(s, h, "the error test fails");

@@ -187,3 +187,47 @@ def test_no_step_strays_to_a_branch_that_comes_near(tmp_path: Path, rtol: float,
     exact = np.sqrt(1 + e) + e * np.arcsinh(1 / np.sqrt(e))
     assert result["y"][-1] == pytest.approx(exact, abs=30 * rtol)
     assert np.all(result["x"] > 0)
+
+
+CROSSED = """model Crossed "A weak acid: x > 0 follows s while that is above zero, and rests at -e/s below"
+  parameter Real e = 1e-6, w = 5;
+  Real s, x(start=2), y(start=0, fixed=true);
+equation
+  s = cos(w*time);
+  x*(x - s) = e;
+  der(y) = x;
+end Crossed;
+"""
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+@pytest.mark.parametrize("e", [1e-3, 1e-6])
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6])
+def test_roots_that_change_places_are_told_apart(tmp_path: Path, rtol: float, e: float, solver: str) -> None:
+    """From a root near zero Newton's method comes to the other one in steps that shrink: the two face opposite ways.
+    Steps err by about their tolerance, some hundred in all."""
+    result = runtime.simulate(compiled(tmp_path, CROSSED), solver=solver, stop=3.0, rtol=rtol, parameters={"e": e})
+    assert result.complete, result.failure
+    s = np.cos(5 * np.linspace(0, 3, 600_001))
+    exact = np.trapezoid(0.5 * (s + np.sqrt(s**2 + 4 * e)), dx=5e-6)
+    assert result["y"][-1] == pytest.approx(exact, abs=100 * rtol)
+    assert np.all(result["x"] > 0)
+
+
+ORIFICE = """model TwoWays "The law of a flow, turned round at an event: behind its crossing each branch ends"
+  parameter Real p = 1;
+  Real q(start=1), dp, V(start=0, fixed=true);
+equation
+  dp = p*cos(time);
+  dp = if q > 0 then q^2 else -q^2;
+  der(V) = q;
+end TwoWays;
+"""
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+def test_a_branch_that_ends_behind_an_event_is_no_end(tmp_path: Path, solver: str) -> None:
+    result = runtime.simulate(compiled(tmp_path, ORIFICE), solver=solver, stop=1.5, rtol=1e-6)
+    assert result.complete, result.failure
+    t = np.linspace(0, 1.5, 300_001)
+    assert result["V"][-1] == pytest.approx(np.trapezoid(np.sqrt(np.cos(t)), t), abs=1e-5)

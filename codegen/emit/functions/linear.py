@@ -11,7 +11,8 @@ from __future__ import annotations
 SOLVE_OF = """\
 /* Solve a x = b in place (row-major, n x n) by Gaussian elimination with scaled partial pivoting; b becomes x. Where a
  * is singular to working precision, 1 + the unknown that it does not determine: rows and columns have no scale. b has
- * 2 n places: behind the right sides come the sizes of what is summed up in them. */
+ * 2 n places: behind the right sides come the sizes of what is summed up in them. A row that makes place for another
+ * changes its sign, so that the determinant stays: its sign is that of the product of the diagonal. */
 static inline __attribute__((always_inline)) int mdl_solve_of(int n, double *a, double *b) {
   double size[n];
 #pragma GCC unroll 4
@@ -40,12 +41,12 @@ static inline __attribute__((always_inline)) int mdl_solve_of(int n, double *a, 
       for (int j = k; j < n; ++j) {
         const double swap = a[k * n + j];
         a[k * n + j] = a[pivot * n + j];
-        a[pivot * n + j] = swap;
+        a[pivot * n + j] = -swap;
       }
       for (int j = 0; j < 2; ++j) {
         const double swap = b[j * n + k];
         b[j * n + k] = b[j * n + pivot];
-        b[j * n + pivot] = swap;
+        b[j * n + pivot] = j == 0 ? -swap : swap;
       }
     }
     for (int i = k + 1; i < n; ++i) {

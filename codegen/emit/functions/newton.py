@@ -27,6 +27,7 @@ typedef struct {
   double *x, *work;
   const double *nominal; /* sizes of the unknowns */
   int phase, iterations, halvings, looks, moved, singular;
+  double orientation; /* sign of the determinant of the last matrix, 0 before there was one */
   double norm;
   double last, ratio; /* size of Newton's last step, and the largest of a step to the one before */
   double low, high, low_r, high_r, length; /* one unknown: what has been searched, or the bracket; residuals there */
@@ -55,11 +56,23 @@ static void mdl_newton_compare(mdl_newton *s, const double *step, int small) {
   s->last = size;
 }
 
-/* For the runtime: the first block, since it asked, whose steps do not shrink, or the one that comes nearest to it. */
+/* For the runtime: the first block, since it asked, whose steps do not shrink or whose root is of another branch, or the
+ * one that comes nearest to it. */
 static void mdl_newton_tell(mdl_data *m, const mdl_newton *s, int equation) {
   mdl_contraction *c = &m->contraction;
-  if (c->only ? c->only != 1 + equation : c->ratio > MDL_CONTRACTS || !(s->ratio > c->ratio)) return;
-  *c = (mdl_contraction){s->ratio, equation, c->only};
+  const int turned = s->orientation * m->facing[equation] < 0.0;
+  const double ratio = turned ? INFINITY : s->ratio;
+  if (s->orientation != 0.0) m->orientation[equation] = s->orientation;
+  c->turned |= turned;
+  if (c->only ? c->only != 1 + equation : c->ratio > MDL_CONTRACTS || !(ratio > c->ratio)) return;
+  *c = (mdl_contraction){ratio, equation, c->only, c->turned};
+}
+
+/* Of the matrix that mdl_solve has left, whose rows were exchanged without a change of its determinant. */
+static void mdl_newton_orient(mdl_newton *s, const double *a) {
+  s->orientation = 1.0;
+  for (int i = 0; i < s->n; ++i)
+    if (a[i * s->n + i] < 0.0) s->orientation = -s->orientation;
 }
 
 /* Begin at the start values, one way or the other. */

@@ -194,4 +194,5 @@ class StepWriter:
         if size > 1:
             body.line(f"mdl_newton_weigh(&{block}, {block}_a, {block}_r);")
         body.line(f"const int {block}_singular = {solved(size, f'{block}_a', f'{block}_r')};")
+        body.line(f"if (!{block}_singular) mdl_newton_orient(&{block}, {block}_a);")
         body.line(f"mdl_newton_step(&{block}, {block}_r, {block}_singular);")
