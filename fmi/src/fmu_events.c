@@ -23,6 +23,7 @@ static void begin_step(fmu *f) {
   for (int i = 0; i < f->n_indicators; i++)
     rt_extend_guard(s, f->indicator[i], fabs(s->g[f->indicator[i]]));
   s->t_previous = s->t;
+  rt_branch_begin(s);
 }
 
 /* What has become due at the present time: relations whose guards have passed, ticks, time relations. */

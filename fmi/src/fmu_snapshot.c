@@ -70,7 +70,7 @@ static void pass_guards(stream *w, rt_session *s) {
 static void pass_session(stream *w, rt_session *s) {
   PASS(s->start), PASS(s->stop), PASS(s->t_previous), PASS(s->t), PASS(s->t_uncrossed), PASS(s->t_end);
   PASS(s->steps_taken), PASS(s->pieces_taken), PASS(s->tiny_steps), PASS(s->futile_events), PASS(s->pending),
-      PASS(s->last_event);
+      PASS(s->last_event), PASS(s->branches.t);
   PASS(s->t_before), PASS(s->t_oldest), pass_flag(w, &s->resume), pass_flag(w, &s->reinitialised);
   PASS(s->last_due_back), pass_flag(w, &s->growing);
   pass_within(w, &s->n_initial, 0, s->d->n_x);

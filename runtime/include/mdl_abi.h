@@ -45,9 +45,9 @@ typedef struct {
 } mdl_failure;
 
 /* How Newton's method came from the start values of nonlinear blocks to their roots: the largest ratio of one of its
- * steps to the one before, INFINITY where it took other ways or to a root that faces the other way (below), of the first
- * block where that was more than
- * MDL_CONTRACTS; its first equation. `only`: 1 + that of the block to watch, 0: all. */
+ * steps to the one before, INFINITY where it took other ways or to a root that faces the other way (below), of the
+ * first block where that was more than MDL_CONTRACTS; its first equation. `only`: 1 + that of the block to watch, 0:
+ * all. */
 typedef struct {
   double ratio;
   int equation, only;
@@ -90,8 +90,8 @@ typedef struct mdl_data {
   int brief;    /* 1: rhs() may write no more of v than what it starts from at the next point */
   double shift; /* 0; by as many nominal values rhs() moves what is open away from the solution next to zero */
   mdl_contraction contraction; /* in rhs() and initial_system(), since the runtime set its ratio to zero */
-  double *orientation;  /* [n_equations] of a nonlinear block, at its first equation: 1 or -1, the sign of the
-                           determinant of its Jacobian at the root; 0 unknown */
+  double *orientation;         /* [n_equations] of a nonlinear block, at its first equation: 1 or -1, the sign of the
+                                  determinant of its Jacobian at the root; 0 unknown */
   const double *facing; /* [n_equations] that on the branch that the run follows, 0: any. It changes nowhere on it */
 } mdl_data;
 

@@ -74,6 +74,7 @@ void rt_branch_start(rt_session *s) {
 /* After an event and at an accepted point. */
 void rt_branch_begin(rt_session *s) {
   s->branches.ended = false;
+  memcpy(s->branches.x, s->data.x, (size_t)s->d->n_x * sizeof(double));
   if (s->d->n_branches) set_out(s, s->t, s->data.v, s->data.xdot, s->branches.orientation);
 }
 
@@ -212,8 +213,8 @@ static bool crosses(rt_session *s, double end) {
 }
 
 /* Whether a step to `end` (x, x' there) has left the branch of a nonlinear block on which it began: a solution of
- * another one was nearer, and over the step the derivatives there move a state by more than its tolerance; or one was met
- * on the way (`turned`); or the step is too long to follow the branch. Where that ends, so does the run. */
+ * another one was nearer, and over the step the derivatives there move a state by more than its tolerance; or one was
+ * met on the way (`turned`); or the step is too long to follow the branch. Where that ends, so does the run. */
 bool rt_branch_strays(rt_session *s, double end, const double *x, const double *xdot, bool turned, rt_status *status) {
   if (!s->d->n_branches || crosses(s, end)) return false;
   rt_status reached = rt_branch_reach(s, end);
@@ -262,4 +263,31 @@ rt_status rt_branch_follow(rt_session *s) {
   turn(s, b->orientation, b->facing_reached);
   if (s->method->multistep) s->pending |= RT_PENDING_BRANCH;
   return RT_OK;
+}
+
+/* For an importer that has moved the session, and tells no way there from where its step began: along a straight one. A
+ * point from which the branch cannot be followed so far stays as it is: the importer may never accept it. */
+void rt_branch_straight(rt_session *s) {
+  rt_branches *b = &s->branches;
+  double end = s->t;
+  int n = s->d->n_x;
+  if (!s->d->n_branches || !(end > b->t) || s->data.contraction.ratio <= MDL_CONTRACTS) return;
+  mdl_data *m = &s->data;
+  rt_failure failure = s->failure;
+  mdl_failure before = m->failure;
+  memcpy(s->x_before, m->x, (size_t)n * sizeof *m->x);
+  copy(s, s->v_before, s->xdot_before, m->v, m->xdot);
+  s->dense = (rt_dense){.c = s->dense.c, .degree = 1, .t0 = b->t, .h = end - b->t, .valid = true};
+  for (int i = 0; i < n; i++) {
+    s->dense.c[i] = b->x[i];
+    s->dense.c[n + i] = m->x[i] - b->x[i];
+  }
+  bool reached = !reach(s, end);
+  s->dense.valid = b->ended = false;
+  s->t = end;
+  s->failure = failure;
+  m->failure = before;
+  memcpy(m->x, s->x_before, (size_t)n * sizeof *m->x);
+  copy(s, m->v, m->xdot, reached ? b->v_reached : s->v_before, reached ? b->xdot_reached : s->xdot_before);
+  if (reached) turn(s, b->orientation, b->facing_reached);
 }

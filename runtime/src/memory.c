@@ -44,9 +44,9 @@ static bool allocate_numbers(rt_session *s) {
   double **algebraic[] = {&m->v, &s->v_trial, &s->v_before,  &s->v_end,  &s->v_agreed,
                           &r->v, &b->v,       &b->v_reached, &b->v_tried},
          **dense[] = {&s->dense.c}, **shapes[] = {&s->shape, &s->rates, &s->swing};
-  double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial,   &s->xdot_trial, &s->x_before,
-                       &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,         &r->xdot,       &s->x_swept,
-                       &s->x_start,     &b->xdot,  &b->xdot_reached,  &b->xdot_tried};
+  double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial,    &s->xdot_trial, &s->x_before,
+                       &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,          &r->xdot,       &s->x_swept,
+                       &s->x_start,     &b->xdot,  &b->xdot_reached,  &b->xdot_tried, &b->x};
   double **branches[] = {&b->size}, **sides[] = {&b->facing, &b->facing_reached, &b->orientation, &b->aside};
   double **sizes[] = {&s->nominal}, **division[] = {&s->division};
   double **guards[] = {&s->g,        &s->g_previous,    &s->g_low,         &s->g_trial, &s->g_before,

@@ -31,7 +31,8 @@ class Data(Structure):
         ("brief", c_int),
         ("shift", c_double),
         ("contraction_ratio", c_double),
-        *((f"contraction_{name}", c_int) for name in ("equation", "only")),
+        *((f"contraction_{name}", c_int) for name in ("equation", "only", "turned")),
+        *((name, _DOUBLES) for name in ("orientation", "facing")),
     ]
 
 
@@ -85,6 +86,7 @@ class Generated:
         self.descriptor: Descriptor = library.mdl_descriptor_get().contents
         d = self.descriptor
         sizes = {"p": d.n_p, "u": d.n_u, "x": d.n_x, "xdot": d.n_x, "v": d.n_v, "d": d.n_d, "pre_d": d.n_d}
+        sizes |= {"orientation": d.n_equations, "facing": d.n_equations}
         self.data, self.arrays = Data(), {}
         for key, size in sizes.items():
             self.arrays[key] = np.zeros(size + 1)

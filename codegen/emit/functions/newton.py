@@ -56,8 +56,8 @@ static void mdl_newton_compare(mdl_newton *s, const double *step, int small) {
   s->last = size;
 }
 
-/* For the runtime: the first block, since it asked, whose steps do not shrink or whose root is of another branch, or the
- * one that comes nearest to it. */
+/* For the runtime: the first block, since it asked, whose steps do not shrink or whose root is of another branch, or
+ * the one that comes nearest to it. */
 static void mdl_newton_tell(mdl_data *m, const mdl_newton *s, int equation) {
   mdl_contraction *c = &m->contraction;
   const int turned = s->orientation * m->facing[equation] < 0.0;

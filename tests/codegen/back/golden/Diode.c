@@ -118,7 +118,8 @@ static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double val
 
 /* Solve a x = b in place (row-major, n x n) by Gaussian elimination with scaled partial pivoting; b becomes x. Where a
  * is singular to working precision, 1 + the unknown that it does not determine: rows and columns have no scale. b has
- * 2 n places: behind the right sides come the sizes of what is summed up in them. */
+ * 2 n places: behind the right sides come the sizes of what is summed up in them. A row that makes place for another
+ * changes its sign, so that the determinant stays: its sign is that of the product of the diagonal. */
 static int mdl_solve(int n, double *a, double *b) {
   double size[n];
   for (int i = 0; i < n; ++i) {
@@ -144,12 +145,12 @@ static int mdl_solve(int n, double *a, double *b) {
       for (int j = k; j < n; ++j) {
         const double swap = a[k * n + j];
         a[k * n + j] = a[pivot * n + j];
-        a[pivot * n + j] = swap;
+        a[pivot * n + j] = -swap;
       }
       for (int j = 0; j < 2; ++j) {
         const double swap = b[j * n + k];
         b[j * n + k] = b[j * n + pivot];
-        b[j * n + pivot] = swap;
+        b[j * n + pivot] = j == 0 ? -swap : swap;
       }
     }
     for (int i = k + 1; i < n; ++i) {
@@ -177,6 +178,7 @@ typedef struct {
   double *x, *work;
   const double *nominal; /* sizes of the unknowns */
   int phase, iterations, halvings, looks, moved, singular;
+  double orientation; /* sign of the determinant of the last matrix, 0 before there was one */
   double norm;
   double last, ratio; /* size of Newton's last step, and the largest of a step to the one before */
   double low, high, low_r, high_r, length; /* one unknown: what has been searched, or the bracket; residuals there */
@@ -205,11 +207,23 @@ static void mdl_newton_compare(mdl_newton *s, const double *step, int small) {
   s->last = size;
 }
 
-/* For the runtime: the first block, since it asked, whose steps do not shrink, or the one that comes nearest to it. */
+/* For the runtime: the first block, since it asked, whose steps do not shrink or whose root is of another branch, or
+ * the one that comes nearest to it. */
 static void mdl_newton_tell(mdl_data *m, const mdl_newton *s, int equation) {
   mdl_contraction *c = &m->contraction;
-  if (c->only ? c->only != 1 + equation : c->ratio > MDL_CONTRACTS || !(s->ratio > c->ratio)) return;
-  *c = (mdl_contraction){s->ratio, equation, c->only};
+  const int turned = s->orientation * m->facing[equation] < 0.0;
+  const double ratio = turned ? INFINITY : s->ratio;
+  if (s->orientation != 0.0) m->orientation[equation] = s->orientation;
+  c->turned |= turned;
+  if (c->only ? c->only != 1 + equation : c->ratio > MDL_CONTRACTS || !(ratio > c->ratio)) return;
+  *c = (mdl_contraction){ratio, equation, c->only, c->turned};
+}
+
+/* Of the matrix that mdl_solve has left, whose rows were exchanged without a change of its determinant. */
+static void mdl_newton_orient(mdl_newton *s, const double *a) {
+  s->orientation = 1.0;
+  for (int i = 0; i < s->n; ++i)
+    if (a[i * s->n + i] < 0.0) s->orientation = -s->orientation;
 }
 
 /* Begin at the start values, one way or the other. */
@@ -465,6 +479,7 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
     if (v_2_block_looked) continue;
     double v_2_block_a[1] = {-(R * (I_s * (tmp1 * inverse_of_V_t)) + 1.0)};
     const int v_2_block_singular = mdl_solve(1, v_2_block_a, v_2_block_r);
+    if (!v_2_block_singular) mdl_newton_orient(&v_2_block, v_2_block_a);
     mdl_newton_step(&v_2_block, v_2_block_r, v_2_block_singular);
   }
   mdl_newton_tell(m, &v_2_block, 1);
