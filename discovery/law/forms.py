@@ -58,7 +58,7 @@ FORMS = (
     Form("drive.dead_time", DRY + "$", VOLTAGE, CURRENT),
     Form("diode", r"^exp\(\S+\*X\)$", CURRENT, VOLTAGE),
     Form("torque.cogging", r"^(sin|cos)\(\S+\*X\)$", FORCE, PLACE),
-    Form("relaxation", r"^\(X - lag\(X, ", ANY, ANY),
+    Form("relaxation", r"^\(X - (lag|warmth)\(X, ", ANY, ANY),
     Form("compliance", r"^swing\(X, ", FORCE, SPEED),
     Form("resonance", r"^swing\(X, ", ANY, ANY),
     Form("drive.delay", r"^\(X - (delay|onset)\(X, ", ANY, ANY),

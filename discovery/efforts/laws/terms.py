@@ -8,11 +8,10 @@ function). Texts are Modelica.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
-from lacuna.discovery.efforts.places.insertion import KEPT
+from lacuna.discovery.efforts.laws.lagging import late, remembering, swinging, varying
 from lacuna.discovery.law.law_terms import DRY, EXPONENTS, Group, Shape, Variable, exponent, stribeck
 
 LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers
@@ -20,8 +19,6 @@ CYCLES = 30  # of a wave along a variable, over the range that it has
 TURN = 1.6  # rad from one wave number to the next at the ends of the range: so that none is missed
 AWAY = 0.05  # of its largest value, that a variable stays above for laws that divide by it, or hold by it at rest
 BEYOND = (1.5, 2.0)  # powers of what is beyond a threshold: weirs, contacts
-DAMPED = 0.1  # damping ratio of what swings, where it starts: as most joints and mounts have
-OCTAVES = 3.0  # from one time constant of a relaxation to the next: half a bandwidth either way
 
 
 def groups(
@@ -31,12 +28,12 @@ def groups(
     (s) those of the samples and of the longest recording."""
     result = [Group(("1",))]
     result += [g for v in found if v.kind == "unheld" for g in _bounded(v)]
-    result += [g for v in found if v.kind == "through" for g in _varying(v, interval, duration)]
+    result += [g for v in found if v.kind == "through" for g in varying(v, interval, duration)]
     common = [v for v in found if v.kind not in ("recording", "unheld", "through")]
     for v in common:
-        result += _remembering(v, common, interval, duration) if v.kind not in ("rate", "above") else []
-        result += _late(v, interval, duration) if v.kind == "input" else []
-        result += _swinging(v, common, interval, duration) if v.sticks else []
+        result += remembering(v, common, interval, duration) if v.kind not in ("rate", "above") else []
+        result += late(v, interval, duration) if v.kind == "input" else []
+        result += swinging(v, common, interval, duration) if v.sticks else []
         low, high = ranges[v.local]
         if v.switch:
             result.append(Group((v.scaled,)))
@@ -47,7 +44,7 @@ def groups(
         free = next((w for w in found if w.kind == "unheld" and w.name == f"der({v.name})"), None)
         result += [g for rate in common if rate.name == f"der({v.name})" for g in _humped(v, rate, free, low, high)]
         if v.kind == "state":
-            result += _waves(v, high - low) + _turning(v, high - low) + _varying(v, interval, duration)
+            result += _waves(v, high - low) + _turning(v, high - low) + varying(v, interval, duration)
     plain = [v for v in common if v.kind not in ("apart", "above")]
     for a in plain:
         for b in plain:
@@ -96,7 +93,7 @@ def _of_one_sign(v: Variable, away: bool) -> list[Group]:
         Group((f"({x} + {{q}} - abs({x} - {{q}}))",), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),))
         for q in (0.25, 0.5, 0.75)
     ]  # up to a limit: what a dead zone loses, what a stop leaves
-    return [Group((x,)), *power, *bend, *ends, *_yielding(v)]
+    return [Group((x,)), *power, *bend, *ends, *_yielding(v), *_falling_off(v)]
 
 
 def _yielding(v: Variable) -> list[Group]:
@@ -106,6 +103,15 @@ def _yielding(v: Variable) -> list[Group]:
             (f"({v.scaled}/(1 + {{q}}*abs{v.scaled}) - {v.scaled})",), (Shape("q", "1", q, 0.01, 100.0, (), 0.9 * q),)
         )
         for q in (0.5, 5.0)
+    ]
+
+
+def _falling_off(v: Variable) -> list[Group]:
+    """What has a largest value and falls behind it: the torque of an induction machine over its slip (Kloss), a
+    reaction that its own substrate inhibits (Haldane); the largest at seven tenths and at a quarter of the range."""
+    return [
+        Group((f"{v.scaled}/(1 + {{q}}*{v.scaled}^2)",), (Shape("q", "1", q, 0.1, 1e3, (), 0.9 * q),))
+        for q in (2.0, 16.0)
     ]
 
 
@@ -143,7 +149,7 @@ def _alone(v: Variable) -> list[Group]:
         for q in (1 / 16, 0.25, 0.5, 0.75)
     ]  # up to a limit either way
     plain = [Group((x,)), Group((f"abs{x}",)), Group((f"{x}^2",)), Group((v.dry,))]
-    return [*plain, *power, *bend, *reach, *ends, *_yielding(v), stribeck(v)]
+    return [*plain, *power, *bend, *reach, *ends, *_yielding(v), *_falling_off(v), stribeck(v)]
 
 
 def _beyond(x: str) -> tuple[str, str]:
@@ -192,59 +198,6 @@ def _humped(v: Variable, rate: Variable, free: Variable | None, low: float, high
             )
             found += [Group((f"{rate.scaled}*{hump}",), shapes, seen=seen) for seen in ((), *((s,) for s in slowed))]
     return found
-
-
-def _remembering(v: Variable, found: Sequence[Variable], interval: float, duration: float) -> list[Group]:
-    """A relaxation: storage behind a resistance, a damper behind a spring, a winding around a core, besides what is
-    believed to be stored or a part of it, then behind the resistance; no faster than samples, no slower than a run."""
-    times, relaxing = _times(interval, duration), f"({v.scaled} - lag({v.scaled}, {{t}}))"
-    part = [w.scaled for w in found if w.name == f"der({v.name})"]
-    return [Group((relaxing, *p), (s,)) for p in ([], part)[: 1 + len(part)] for s in times]
-
-
-def _swinging(v: Variable, found: Sequence[Variable], interval: float, duration: float) -> list[Group]:
-    """A mass on a spring of its own, besides what is believed to move or a part of it, which then goes from the rest;
-    from three cycles of a recording to three samples a cycle, half a bandwidth apart."""
-    low, high = 2 * np.pi * 3 / duration, 2 * np.pi / (3 * interval)
-    part = [w.scaled for w in found if w.name == f"der({v.name})"]
-    result = []
-    for w in low * (1 + DAMPED) ** np.arange(np.log(high / low) / np.log1p(DAMPED)):
-        shapes = (
-            Shape("w", "rad/s", float(w), low / 3, 3 * high, (), DAMPED * float(w)),
-            Shape("z", "1", DAMPED, DAMPED / 1e3, 0.9),
-        )
-        texts = [f"swing({v.scaled}, {{w}}, {{z}})", *part]
-        result += [Group((texts[0],), shapes), *([Group(tuple(texts), shapes)] if part else [])]
-    return result
-
-
-def _late(v: Variable, interval: float, duration: float) -> list[Group]:
-    """A command that arrives late: kept in so many samples that the delay is of tens of them at least, or of few of the
-    recording's own. Before a recording it was what it is at its start, or nothing was commanded."""
-    result = []
-    for shape in _times(interval, duration):
-        apart = interval * np.ceil(OCTAVES * shape.start / ((KEPT - 1) * interval))
-        own = replace(shape, upper=(KEPT - 1) * float(apart))
-        result += [
-            Group((f"({v.scaled} - {before}({v.scaled}, {{t}}, {apart:.6g}))",), (own,))
-            for before in ("delay", "onset")
-        ]
-    return result
-
-
-def _varying(v: Variable, interval: float, duration: float) -> list[Group]:
-    """A coefficient that varies with what it has carried of late, as a winding's resistance does when it warms; where
-    that goes through the place itself, the coefficient, too."""
-    warm = f"warmth({v.scaled}^2, {{t}})"
-    texts = [f"{v.scaled}*{warm}", *([warm] if v.kind == "through" else [])]
-    return [Group((text,), (s,)) for text in texts for s in _times(interval, duration)]
-
-
-def _times(interval: float, duration: float) -> list[Shape]:
-    """Time constants between the samples' interval and a recording's duration."""
-    count = max(2, int(np.ceil(np.log(duration / interval) / np.log(OCTAVES))))
-    times = [float(t) for t in interval * OCTAVES ** (np.arange(count) + 0.5) if t < duration]
-    return [Shape("t", "s", t, max(t / 9, interval), t * 9, (), 0.6 * t) for t in times]
 
 
 def _waves(v: Variable, span: float) -> list[Group]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 import re
 
 from lacuna.discovery.law.law import Law
@@ -11,10 +12,11 @@ from lacuna.discovery.law.law_terms import DRY, Group, Shape, Variable, exponent
 
 def varied(best: Proposal) -> list[Proposal]:
     """A fitted law with any exponent in the place of one that physics has, with dry friction that truly sticks in that
-    of a steep one, with one that falls from rest on in that of a level one, with a sign as steep as the data says, or
-    with a zero elsewhere of what divides it; one group at a time."""
+    of a steep one, with one that falls from rest on in that of a level one, with a sign as steep as the data says, with
+    a zero elsewhere of what divides it, or with a storage that begins empty; one group at a time."""
     law, values = best.law, best.candidate.attachment.own_values(best.candidate.fit.point)
     found = [*stuck(law, values), *_falling(law, values), *_steep(law, values), *_from_elsewhere(law, values)]
+    found += _empty(law, values)
     for n, group in enumerate(law.groups):
         text = group.texts[0]
         linear = re.fullmatch(r"\((\w+)/\w+_ref\)", text)
@@ -37,6 +39,18 @@ def _from_elsewhere(law: Law, values: dict[str, float]) -> list[Proposal]:
             amount = f"c_{1 + sum(len(g.texts) for g in law.groups[:n])}"
             start = values | {amount: part * values[amount], f"q_{n + 1}": part}
             found.append(Proposal(Law(law.site, (*law.groups[:n], longer, *law.groups[n + 1 :])), start))
+    return found
+
+
+def _empty(law: Law, values: dict[str, float]) -> list[Proposal]:
+    """The law with what lags behind at nothing at first, in the place of at rest: a storage that has just been added to
+    is empty, whatever it lies behind."""
+    found = []
+    for n, group in enumerate(law.groups):
+        texts = tuple(text.replace(" - lag(", " - warmth(") for text in group.texts)
+        if texts != group.texts:
+            groups = (*law.groups[:n], replace(group, texts=texts), *law.groups[n + 1 :])
+            found.append(Proposal(Law(law.site, groups), values))
     return found
 
 

@@ -1,0 +1,67 @@
+"""Terms with states of their own: what relaxes, swings, arrives late or warms behind a variable. Texts are Modelica."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from lacuna.discovery.efforts.places.insertion import KEPT
+from lacuna.discovery.law.law_terms import Group, Shape, Variable
+
+DAMPED = 0.1  # damping ratio of what swings, where it starts: as most joints and mounts have
+OCTAVES = 3.0  # from one time constant of a relaxation to the next: half a bandwidth either way
+
+
+def remembering(v: Variable, found: Sequence[Variable], interval: float, duration: float) -> list[Group]:
+    """A relaxation: storage behind a resistance, a damper behind a spring, a winding around a core, besides what is
+    believed to be stored or a part of it, then behind the resistance; no faster than samples, no slower than a run."""
+    times, relaxing = _times(interval, duration), f"({v.scaled} - lag({v.scaled}, {{t}}))"
+    part = [w.scaled for w in found if w.name == f"der({v.name})"]
+    return [Group((relaxing, *p), (s,)) for p in ([], part)[: 1 + len(part)] for s in times]
+
+
+def swinging(v: Variable, found: Sequence[Variable], interval: float, duration: float) -> list[Group]:
+    """A mass on a spring of its own, besides what is believed to move or a part of it, which then goes from the rest;
+    from three cycles of a recording to three samples a cycle, half a bandwidth apart."""
+    low, high = 2 * np.pi * 3 / duration, 2 * np.pi / (3 * interval)
+    part = [w.scaled for w in found if w.name == f"der({v.name})"]
+    result = []
+    for w in low * (1 + DAMPED) ** np.arange(np.log(high / low) / np.log1p(DAMPED)):
+        shapes = (
+            Shape("w", "rad/s", float(w), low / 3, 3 * high, (), DAMPED * float(w)),
+            Shape("z", "1", DAMPED, DAMPED / 1e3, 0.9),
+        )
+        texts = [f"swing({v.scaled}, {{w}}, {{z}})", *part]
+        result += [Group((texts[0],), shapes), *([Group(tuple(texts), shapes)] if part else [])]
+    return result
+
+
+def late(v: Variable, interval: float, duration: float) -> list[Group]:
+    """A command that arrives late: kept in so many samples that the delay is of tens of them at least, or of few of the
+    recording's own. Before a recording it was what it is at its start, or nothing was commanded."""
+    result = []
+    for shape in _times(interval, duration):
+        apart = interval * np.ceil(OCTAVES * shape.start / ((KEPT - 1) * interval))
+        own = replace(shape, upper=(KEPT - 1) * float(apart))
+        result += [
+            Group((f"({v.scaled} - {before}({v.scaled}, {{t}}, {apart:.6g}))",), (own,))
+            for before in ("delay", "onset")
+        ]
+    return result
+
+
+def varying(v: Variable, interval: float, duration: float) -> list[Group]:
+    """A coefficient that varies with what it has carried of late, as a winding's resistance does when it warms; where
+    that goes through the place itself, the coefficient, too."""
+    warm = f"warmth({v.scaled}^2, {{t}})"
+    texts = [f"{v.scaled}*{warm}", *([warm] if v.kind == "through" else [])]
+    return [Group((text,), (s,)) for text in texts for s in _times(interval, duration)]
+
+
+def _times(interval: float, duration: float) -> list[Shape]:
+    """Time constants between the samples' interval and a recording's duration."""
+    count = max(2, int(np.ceil(np.log(duration / interval) / np.log(OCTAVES))))
+    times = [float(t) for t in interval * OCTAVES ** (np.arange(count) + 0.5) if t < duration]
+    return [Shape("t", "s", t, max(t / 9, interval), t * 9, (), 0.6 * t) for t in times]
