@@ -9,6 +9,7 @@ import ctypes
 from dataclasses import dataclass
 from functools import partial
 from signal import SIGINT, default_int_handler
+import sys
 import threading
 from typing import Literal
 import weakref
@@ -241,7 +242,8 @@ def _watched(lib: ctypes.CDLL, session: int, watch: Callable[[float], object] | 
     lib.rt_session_watch(session, callback)
     before = _signal.signal(SIGINT, lambda *_: raised.append(KeyboardInterrupt())) if hears else None
     try:
-        yield
+        with _kept_from_being_ignored(look, raised):
+            yield
     finally:
         if hears:
             _signal.signal(SIGINT, before)
@@ -250,10 +252,35 @@ def _watched(lib: ctypes.CDLL, session: int, watch: Callable[[float], object] | 
         raise raised[0]
 
 
+@contextmanager
+def _kept_from_being_ignored(callback: object, raised: list[BaseException]) -> Iterator[None]:
+    """Handlers of other signals (an alarm's) run where the runtime comes back to Python, before `callback` has begun:
+    what they raise there is nobody's to catch."""
+    if not _is_main():
+        yield
+        return
+    before = sys.unraisablehook
+
+    def hook(unraisable: sys.UnraisableHookArgs) -> None:
+        if unraisable.object is callback and unraisable.exc_value is not None:
+            raised.append(unraisable.exc_value)
+        else:
+            before(unraisable)
+
+    sys.unraisablehook = hook
+    try:
+        yield
+    finally:
+        sys.unraisablehook = before
+
+
+def _is_main() -> bool:
+    return threading.current_thread() is threading.main_thread()
+
+
 def _hears_ctrl_c() -> bool:
     """This is the thread that signals come to, and nobody else has asked for this one."""
-    main = threading.current_thread() is threading.main_thread()
-    return main and _signal.getsignal(SIGINT) is default_int_handler
+    return _is_main() and _signal.getsignal(SIGINT) is default_int_handler
 
 
 def simulate(

@@ -78,6 +78,7 @@ bool fmu_done(fmu *f, rt_status status);
 
 /* fmu_values.c */
 bool fmu_refresh(fmu *f);
+void fmu_follow(fmu *f);
 typedef enum { FMU_DOUBLE, FMU_INT, FMU_BOOL } fmu_type; /* of the importer's arrays */
 size_t fmu_count(size_t n, const unsigned *references);  /* values of n variables */
 /* Values of n variables one after another, all of an array. */

@@ -13,14 +13,6 @@ static bool is_before_start(const fmu *f) {
   return f->mode == FMU_SETUP || f->mode == FMU_INITIALISATION;
 }
 
-/* The point is on the branch of the last step's end, and so are the guards. */
-static void fmu_follow(fmu *f) {
-  rt_session *s = f->session;
-  if (s->data.contraction.ratio <= MDL_CONTRACTS) return;
-  rt_branch_straight(s);
-  if (s->d->n_rel) s->d->roots(&s->data, s->t, s->data.x, s->data.xdot, s->data.v, s->g);
-}
-
 /* Everything belongs to what is set now: the initial equations solved, xdot and v computed. */
 bool fmu_refresh(fmu *f) {
   rt_session *s = f->session;

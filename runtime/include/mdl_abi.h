@@ -45,13 +45,12 @@ typedef struct {
 } mdl_failure;
 
 /* How Newton's method came from the start values of nonlinear blocks to their roots: the largest ratio of one of its
- * steps to the one before, INFINITY where it took other ways or to a root that faces the other way (below), of the
- * first block where that was more than MDL_CONTRACTS; its first equation. `only`: 1 + that of the block to watch, 0:
- * all. */
+ * steps to the one before, INFINITY where it took other ways, of the first block where that was more than
+ * MDL_CONTRACTS; its first equation. `only`: 1 + that of the block to watch, 0: all. */
 typedef struct {
   double ratio;
   int equation, only;
-  int turned; /* 1: one came to a root that faces the other way */
+  int turned; /* 1 + the first equation of a block that came to a root that faces the other way; 0: none did */
 } mdl_contraction;
 
 /* Up to here the root is that of the start values' branch (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004,

@@ -28,6 +28,10 @@ static double *kept(const mdl_computed *c, double *v, double *xdot) {
   return (c->storage == MDL_DERIVATIVE ? xdot : v) + c->index;
 }
 
+static bool is_doubtful(const rt_session *s) {
+  return s->data.contraction.ratio > MDL_CONTRACTS || s->data.contraction.turned;
+}
+
 /* Largest change in tolerances, of the unknowns of one block or of all (-1). */
 static double changed(rt_session *s, int equation) {
   rt_branches *b = &s->branches;
@@ -151,11 +155,11 @@ static rt_status fail(rt_session *s, double t, int equation) {
 static rt_status follow(rt_session *s, double from, double to) {
   rt_branches *b = &s->branches;
   bool found = !look(s, to, 0), contracts = s->data.contraction.ratio <= MDL_CONTRACTS;
-  bool turned = s->data.contraction.turned;
+  int turned = found ? s->data.contraction.turned : 0;
   if (!found && contracts) return rt_fail_model(s, to, "following a branch"); /* something else has no value */
-  if (!contracts && b->pieces > 0 && (!found || turned || changed(s, -1) > 1)) {
+  if (b->pieces > 0 && (turned || (!contracts && (!found || changed(s, -1) > 1)))) {
     double middle = from + 0.5 * (to - from);
-    int equation = s->data.contraction.equation;
+    int equation = turned ? turned - 1 : s->data.contraction.equation;
     b->pieces--;
     if (to - from > 2 * rt_time_resolution(s)) {
       rt_status status = follow(s, from, middle);
@@ -173,13 +177,33 @@ static rt_status follow(rt_session *s, double from, double to) {
   return RT_OK;
 }
 
-static rt_status reach(rt_session *s, double t) {
+static void go_back(rt_session *s) {
   rt_branches *b = &s->branches;
   copy(s, b->v_reached, b->xdot_reached, b->v, b->xdot);
   turn(s, b->facing_reached, b->facing);
+}
+
+/* At one go, where Newton's steps shrink: past a point where the Jacobian is singular, which the branch goes through. */
+static bool leap(rt_session *s, double t) {
+  rt_branches *b = &s->branches;
+  go_back(s);
+  if (look(s, t, 0) || s->data.contraction.ratio > MDL_CONTRACTS) return false;
+  copy(s, b->v_reached, b->xdot_reached, b->v_tried, b->xdot_tried);
+  turn(s, b->facing_reached, b->aside);
+  return true;
+}
+
+static rt_status reach(rt_session *s, double t) {
+  rt_branches *b = &s->branches;
+  rt_failure before = s->failure;
+  go_back(s);
   s->data.facing = b->facing_reached;
   if ((b->pieces += PIECES_PER_STEP) > MOST_PIECES) b->pieces = MOST_PIECES;
   rt_status status = follow(s, b->t, t);
+  if (status && !b->ended && leap(s, t)) {
+    s->failure = before;
+    status = RT_OK;
+  }
   b->reached = status ? NAN : t;
   s->data.contraction = (mdl_contraction){0};
   s->data.facing = b->facing;
@@ -204,8 +228,7 @@ rt_status rt_branch_reach(rt_session *s, double end) {
 static bool crosses(rt_session *s, double end) {
   rt_branches *b = &s->branches;
   if (!s->d->n_rel) return false;
-  copy(s, b->v_reached, b->xdot_reached, b->v, b->xdot);
-  turn(s, b->facing_reached, b->facing);
+  go_back(s);
   if (look(s, end, 0) || s->d->roots(&s->data, end, s->x_trial, b->xdot_tried, b->v_tried, s->g_trial)) return false;
   for (int r = 0; r < s->d->n_rel; r++)
     if (rt_is_state_relation(s, r) && (s->data.rel[r] ? s->g_trial[r] <= 0 : s->g_trial[r] > 0)) return true;
@@ -214,12 +237,16 @@ static bool crosses(rt_session *s, double end) {
 
 /* Whether a step to `end` (x, x' there) has left the branch of a nonlinear block on which it began: a solution of
  * another one was nearer, and over the step the derivatives there move a state by more than its tolerance; or one was
- * met on the way (`turned`); or the step is too long to follow the branch. Where that ends, so does the run. */
+ * met on the way (`turned`), though the branch has not turned itself; or the step is too long to follow the branch.
+ * Where that ends, so does the run. A step that can hardly be shorter is taken: there unknowns jump. */
 bool rt_branch_strays(rt_session *s, double end, const double *x, const double *xdot, bool turned, rt_status *status) {
   if (!s->d->n_branches || crosses(s, end)) return false;
   rt_status reached = rt_branch_reach(s, end);
   if (s->branches.ended) *status = reached;
-  if (reached || turned) return !*status && end - s->t > 2 * rt_time_resolution(s);
+  if (*status || !(end - s->t > 8 * rt_smallest_step(s))) return false;
+  if (reached || (turned && !memcmp(s->branches.facing_reached, s->branches.facing,
+                                    (size_t)s->d->n_equations * sizeof(double))))
+    return true;
   for (int i = 0; i < s->d->n_x; i++) {
     double moved = fabs(xdot[i] - s->branches.xdot_reached[i]) * (end - s->t);
     if (moved > s->options.rtol * fabs(x[i]) + s->atol[i]) return true;
@@ -234,10 +261,21 @@ void rt_branch_retreat(rt_session *s) {
   s->data.contraction = (mdl_contraction){0};
 }
 
-/* A row at t inside the last step. */
-rt_status rt_branch_row(rt_session *s, double t, double *xdot, double *v) {
-  if (!s->d->n_branches || s->branches.ended) return RT_OK;
-  if (s->data.contraction.ratio > MDL_CONTRACTS) {
+/* Where the branch has been followed to the session's point, its solution as what nonlinear blocks start from. */
+bool rt_branch_take(rt_session *s) {
+  rt_branches *b = &s->branches;
+  if (!s->d->n_branches || b->reached != s->t) return false;
+  for (int k = 0; k < s->d->n_branches; k++) {
+    const mdl_computed *c = &s->d->branches[k];
+    *kept(c, s->data.v, s->data.xdot) = *kept(c, b->v_reached, b->xdot_reached);
+  }
+  return true;
+}
+
+/* A row at t inside the last step; `found`: its values, from those of the row before. */
+rt_status rt_branch_row(rt_session *s, double t, double *xdot, double *v, bool found) {
+  if (!s->d->n_branches || s->branches.ended) return found ? RT_OK : rt_fail_model(s, t, "evaluating outputs");
+  if (!found || is_doubtful(s)) {
     rt_status status = reach(s, t);
     if (status) return status;
     rt_inputs_at(s, t);
@@ -253,7 +291,7 @@ rt_status rt_branch_row(rt_session *s, double t, double *xdot, double *v) {
  * solution nothing is known. */
 rt_status rt_branch_follow(rt_session *s) {
   rt_branches *b = &s->branches;
-  bool certain = !s->method->multistep && s->data.contraction.ratio <= MDL_CONTRACTS;
+  bool certain = !s->method->multistep && !is_doubtful(s);
   if (!s->d->n_branches || certain || !(s->t > b->t)) return RT_OK;
   rt_status status = b->reached == s->t ? RT_OK : reach(s, s->t);
   if (status) return status;
@@ -263,31 +301,4 @@ rt_status rt_branch_follow(rt_session *s) {
   turn(s, b->orientation, b->facing_reached);
   if (s->method->multistep) s->pending |= RT_PENDING_BRANCH;
   return RT_OK;
-}
-
-/* For an importer that has moved the session, and tells no way there from where its step began: along a straight one. A
- * point from which the branch cannot be followed so far stays as it is: the importer may never accept it. */
-void rt_branch_straight(rt_session *s) {
-  rt_branches *b = &s->branches;
-  double end = s->t;
-  int n = s->d->n_x;
-  if (!s->d->n_branches || !(end > b->t) || s->data.contraction.ratio <= MDL_CONTRACTS) return;
-  mdl_data *m = &s->data;
-  rt_failure failure = s->failure;
-  mdl_failure before = m->failure;
-  memcpy(s->x_before, m->x, (size_t)n * sizeof *m->x);
-  copy(s, s->v_before, s->xdot_before, m->v, m->xdot);
-  s->dense = (rt_dense){.c = s->dense.c, .degree = 1, .t0 = b->t, .h = end - b->t, .valid = true};
-  for (int i = 0; i < n; i++) {
-    s->dense.c[i] = b->x[i];
-    s->dense.c[n + i] = m->x[i] - b->x[i];
-  }
-  bool reached = !reach(s, end);
-  s->dense.valid = b->ended = false;
-  s->t = end;
-  s->failure = failure;
-  m->failure = before;
-  memcpy(m->x, s->x_before, (size_t)n * sizeof *m->x);
-  copy(s, m->v, m->xdot, reached ? b->v_reached : s->v_before, reached ? b->xdot_reached : s->xdot_before);
-  if (reached) turn(s, b->orientation, b->facing_reached);
 }

@@ -14,6 +14,7 @@ static const double alike = 1.5e-8;           /* root of rounding */
 static const double finest = 8 * DBL_EPSILON; /* relative tolerance that steps can still be tested by */
 static const double relief =
     1.02;               /* of the tolerances in a step: a guard that swings comes back before they are slack */
+enum { STALLS = 4 };    /* steps in a row that left a branch, or vanished: IDA does not get on by itself */
 enum { RESOLVING = 3 }; /* order from which on polynomials bend as guards do; below, IDA is starting */
 /* IDA doubles a step where that errs by its tolerance at most, and then keeps it: it gets half of what is allowed. */
 static const double half = 0.5;
@@ -216,24 +217,42 @@ static int attempt(rt_session *s, rt_ida *m, double limit, sunrealtype *t, rt_st
   }
 }
 
+/* From the algebraic unknowns that IDA has found, which near the end of where an equation has values may lie behind it
+ * by less than the tolerance; else from those of the branch. */
+static int evaluate(rt_session *s) {
+  mdl_data *m = &s->data;
+  int status = rt_rhs(s, s->t, m->x, m->xdot, m->v);
+  if (status && rt_branch_take(s)) status = rt_rhs(s, s->t, m->x, m->xdot, m->v);
+  return status ? status : rt_check_finite(s, m->xdot);
+}
+
+static bool steps_over(rt_session *s, rt_ida *m, double limit) {
+  sunrealtype h = 0;
+  m->stalls = STALLS / 2;
+  return IDAGetCurrentStep(m->ida, &h) == IDA_SUCCESS && rt_ida_step_over(s, m, fabs(h), limit);
+}
+
 static rt_status step(rt_session *s, void *p, double limit) {
   rt_ida *m = p;
   sunrealtype t = s->t;
   rt_status status = RT_OK;
   bool fresh = m->fresh;
   m->fresh = false;
+  if ((m->stalls > STALLS || s->tiny_steps > STALLS) && steps_over(s, m, limit)) return RT_OK;
   if (fresh && rt_ida_start(s, m, limit)) return RT_OK;
   int flag = attempt(s, m, limit, &t, &status);
   if (status) return status;
+  if (flag < 0 && steps_over(s, m, limit)) return RT_OK;
   if (flag < 0) return fail(s, m, flag);
   const double *y = N_VGetArrayPointer(m->y), *z = y + s->d->n_x;
   memcpy(s->data.x, y, (size_t)s->d->n_x * sizeof *y);
   for (int k = 0; k < s->d->n_z; k++)
     s->data.v[s->d->z_index[k]] = z[k];
   s->t = flag == IDA_TSTOP_RETURN ? limit : t;
-  if (rt_rhs(s, s->t, s->data.x, s->data.xdot, s->data.v) || rt_check_finite(s, s->data.xdot))
-    return rt_fail_model(s, s->t, "evaluating the explicit form");
-  if (differ(s, z, s->data.v)) s->pending |= RT_PENDING_BRANCH;
+  if (evaluate(s)) return rt_fail_model(s, s->t, "evaluating the explicit form");
+  bool apart = differ(s, z, s->data.v);
+  if (apart) s->pending |= RT_PENDING_BRANCH;
+  m->stalls = apart ? m->stalls + 1 : 0;
   return rt_ida_tangent_step(s, m);
 }
 

@@ -30,6 +30,7 @@ typedef struct {
   double *starts, start_t[RT_IDA_STARTS]; /* [RT_IDA_STARTS * (n_x + n_z)] points of a start */
   int start_steps;                        /* of IDA's, that were those of a start */
   bool fresh;                             /* restarted, no step yet */
+  int stalls;                             /* steps in a row that left a branch */
   int known;                              /* of those, IDA has taken so many */
   long taken;                             /* steps that IDA had taken there */
   double share;                           /* of the tolerances, that guards far smaller than the states leave of them */
@@ -52,6 +53,7 @@ void rt_ida_filter(rt_session *s, void *memory, double t, double *defect);
 /* ida_start.c */
 double rt_ida_first_step(rt_session *s, double *zdot);
 bool rt_ida_start(rt_session *s, rt_ida *m, double limit);
+bool rt_ida_step_over(rt_session *s, rt_ida *m, double h, double limit);
 int rt_ida_follow_start(rt_ida *m, double limit);
 
 /* ida_dense.c */

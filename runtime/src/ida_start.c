@@ -96,12 +96,35 @@ static double walk(rt_session *s, rt_ida *m, double length) {
   return largest;
 }
 
-/* The same, infinite too where the guards want a shorter way (swings.c), or the steps may have left the branch of a
- * nonlinear block. */
+/* Whether the steps have left the branch of a nonlinear block, or would end the run with it: shorter ones tell. */
+static bool strays(rt_session *s, const rt_ida *m) {
+  mdl_contraction seen = s->data.contraction;
+  if (!s->d->n_branches || (seen.ratio <= MDL_CONTRACTS && !seen.turned)) return false;
+  size_t size = (size_t)s->d->n_x * sizeof *s->data.x;
+  rt_failure failure = s->failure;
+  rt_status ended = RT_OK;
+  double t = s->t;
+  memcpy(s->x_before, s->data.x, size);
+  memcpy(s->xdot_before, s->data.xdot, size);
+  s->dense.valid = false;
+  bool strays = rt_branch_strays(s, m->start_t[STEPS - 1], m->starter->x1, m->starter->f1, seen.turned, &ended);
+  if (ended) {
+    memcpy(s->data.x, s->x_before, size);
+    memcpy(s->data.xdot, s->xdot_before, size);
+    s->t = t;
+    s->failure = failure;
+    s->branches.ended = false;
+  }
+  s->data.contraction = seen;
+  return strays || ended;
+}
+
+/* The same, infinite too where the guards want a shorter way (swings.c), or the branch of a nonlinear block does. */
 static double attempt(rt_session *s, rt_ida *m, double length) {
   double error = walk(s, m, length);
-  if (s->d->n_branches && s->data.contraction.ratio > MDL_CONTRACTS) return INFINITY;
-  if (!(error <= within * accuracy) || !s->d->guard_rates) return error;
+  if (!(error <= within * accuracy)) return error;
+  if (strays(s, m)) return INFINITY;
+  if (!s->d->guard_rates) return error;
   s->dense.valid = false;
   return rt_swing_error(s, m->start_t[STEPS - 1], m->starter->error) <= 1 ? error : INFINITY;
 }
@@ -153,4 +176,52 @@ int rt_ida_follow_start(rt_ida *m, double limit) {
     flag = IDASolve(m->ida, limit, &t, m->y, m->yp, IDA_ONE_STEP);
   IDAGetNumSteps(m->ida, &m->taken);
   return flag;
+}
+
+static bool jumped(const rt_session *s) {
+  for (int k = 0; k < s->d->n_z; k++) {
+    double from = s->v_before[s->d->z_index[k]], to = s->data.v[s->d->z_index[k]];
+    if (fabs(to - from) > s->options.rtol * rt_max(fabs(from), fabs(to)) + s->atol[s->d->n_x + k]) return true;
+  }
+  return false;
+}
+
+/* One step of Dormand & Prince from the session's point; its error in tolerances, negative where it cannot be taken. */
+static double try_over(rt_session *s, rt_onestep *o, double h) {
+  memcpy(s->data.v, s->v_before, (size_t)s->d->n_v * sizeof *s->data.v);
+  memcpy(o->x0, s->data.x, (size_t)s->d->n_x * sizeof *o->x0);
+  memcpy(o->f0, s->data.xdot, (size_t)s->d->n_x * sizeof *o->f0);
+  o->t0 = s->t;
+  return o->scheme->attempt(s, o, h) || rt_check_finite(s, o->f1) ? -1 : norm(s, o->error);
+}
+
+/* Where IDA does not get on: at a corner of nonlinear equations their branch ends (the trigger of Schmitt), and Newton's
+ * method, from what IDA predicts, never comes across; where flows by a root come to rest, unknowns have infinite slopes.
+ * The solver of the blocks finds what is behind. Steps by Dormand & Prince, twice as long each, from the length `h` on,
+ * until the unknowns jump or the step errs by more than the tolerance: the longest is the session's. False: none is. */
+bool rt_ida_step_over(rt_session *s, rt_ida *m, double h, double limit) {
+  rt_onestep *o = m->starter;
+  if (!s->d->n_branches || s->sensitivities || s->undetermined) return false;
+  double taken = 0, tried = 0, error = 0;
+  memcpy(s->v_before, s->data.v, (size_t)s->d->n_v * sizeof *s->v_before);
+  for (h = rt_max(h, rt_smallest_step(s)); s->t + h < limit && error <= 1; h *= 2) {
+    error = try_over(s, o, tried = h);
+    if (error < 0 || error > 1) continue;
+    taken = h;
+    if (jumped(s)) break;
+  }
+  if (!(taken > 0) || (tried != taken && !(fabs(try_over(s, o, taken)) <= 1))) {
+    memcpy(s->data.v, s->v_before, (size_t)s->d->n_v * sizeof *s->data.v);
+    return false;
+  }
+  s->data.failure.kind = MDL_FAILURE_NONE;
+  s->t += taken;
+  memcpy(s->data.x, o->x1, (size_t)s->d->n_x * sizeof *o->x1);
+  memcpy(s->data.xdot, o->f1, (size_t)s->d->n_x * sizeof *o->f1);
+  m->first = m->latest;
+  m->order = 1;
+  rt_ida_push(s, m, s->t, s->data.x);
+  s->pending |= RT_PENDING_BRANCH;
+  s->result->counters.steps++;
+  return true;
 }

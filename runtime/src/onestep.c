@@ -172,8 +172,8 @@ static double test_guards(rt_session *s, rt_onestep *o, double h, double square)
 /* Whether a step that took other ways than Newton's to a root, or came to one of another branch, has left its branch,
  * be it at a stage alone. */
 static bool strays(rt_session *s, rt_onestep *o, double h, rt_status *ended) {
-  if (!s->d->n_branches || s->data.contraction.ratio <= MDL_CONTRACTS) return false;
   mdl_contraction seen = s->data.contraction;
+  if (!s->d->n_branches || (seen.ratio <= MDL_CONTRACTS && !seen.turned)) return false;
   o->h = h;
   s->dense.valid = false;
   bool strays = rt_branch_strays(s, s->t + h, o->x1, o->f1, seen.turned, ended);

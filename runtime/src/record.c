@@ -91,8 +91,8 @@ static rt_status write_interpolated(rt_session *s, double t) {
   rt_recorder *r = &s->recorder;
   rt_dense_point(s, t, r->x);
   if (r->needs_rhs) {
-    if (rt_rhs(s, t, r->x, r->xdot, r->v)) return rt_fail_model(s, t, "evaluating outputs");
-    rt_status status = rt_branch_row(s, t, r->xdot, r->v);
+    bool found = !rt_rhs(s, t, r->x, r->xdot, r->v);
+    rt_status status = rt_branch_row(s, t, r->xdot, r->v, found);
     if (!status) status = rt_check_values(s, t, r->x, r->xdot, r->v);
     if (!status && !s->options.unchecked && rt_check_settled(s, s->data.unsettled))
       status = rt_fail_model(s, t, "computing variables");

@@ -12,6 +12,7 @@ from lacuna.codegen.flatten.names.values import Value
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.expressions import LARGEST_INTEGER
 
 _NUMBERS = {
     "real": re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"), "whole": re.compile(r"[+-]?\d+"),
@@ -68,7 +69,7 @@ def _scan_real(text: str, start: int, unsigned: bool) -> tuple[int, float]:
 
 def _scan_integer(text: str, start: int, unsigned: bool) -> tuple[int, int]:
     after, found = _scan(_NUMBERS["unsigned whole" if unsigned else "whole"], text, start)
-    whole = found and (after > len(text) or text[after - 1] not in ".eE")
+    whole = found and (after > len(text) or text[after - 1] not in ".eE") and abs(int(found)) <= LARGEST_INTEGER
     return (after, int(found)) if whole else (start, 0)
 
 
