@@ -1,14 +1,13 @@
-/* A run follows one solution of its nonlinear equations. Where that ends, at a fold, their Jacobian is singular, and
- * behind it there is no solution or another one, to which Newton's method may jump.
+/* A run follows one solution of its nonlinear equations. Where that ends, at a fold, their Jacobian is singular; behind
+ * it there is no solution or another one, to which Newton's method may jump.
  *
- * As long as the steps of Newton's method, from the solution at one point of the run to that at the next, shrink as
- * they do for a simple root (MDL_CONTRACTS), the next is on the same branch. This is looked at without cost: the model
- * notes it. Where they do not, the step is followed in halves, each from the solution at the end of the one before,
- * until they do or until nothing changes that a tolerance sees. What still jumps when time hardly moves is a fold where
- * the unknowns come near it as a root does, ever faster; and no jump where it is smaller, the shorter the way, as where
- * a Jacobian vanishes but the solution goes on (q abs(q) = p at p = 0). All are ratios, so that nothing has a scale.
- * Where they come near it as a line does, the equations themselves jump or have a corner, in noEvent or smooth. To the
- * model it is an event, at which unknowns may jump: the trigger of Schmitt, made of a limited amplifier. */
+ * Where the steps of Newton's method, from one point of the run to the next, shrink as they do for a simple root, to a
+ * root that faces the same way, it is on the same branch: the model notes it. Else the step is followed in halves, each
+ * from the end of the one before, until that is so or nothing changes that a tolerance sees. What still jumps when time
+ * hardly moves is a fold where the unknowns come near it as a root does, ever faster; no jump where it is smaller, the
+ * shorter the way, as where a Jacobian vanishes but the solution goes on (q abs(q) = p at p = 0). All are ratios
+ * without a scale. Where they come near it as a line does, the equations jump or have a corner, in noEvent or smooth:
+ * an event, at which unknowns may jump (the trigger of Schmitt, made of a limited amplifier). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -183,7 +182,8 @@ static void go_back(rt_session *s) {
   turn(s, b->facing_reached, b->facing);
 }
 
-/* At one go, where Newton's steps shrink: past a point where the Jacobian is singular, which the branch goes through. */
+/* At one go, where Newton's steps shrink: past a point where the Jacobian is singular, which the branch goes through.
+ */
 static bool leap(rt_session *s, double t) {
   rt_branches *b = &s->branches;
   go_back(s);
@@ -200,10 +200,7 @@ static rt_status reach(rt_session *s, double t) {
   s->data.facing = b->facing_reached;
   if ((b->pieces += PIECES_PER_STEP) > MOST_PIECES) b->pieces = MOST_PIECES;
   rt_status status = follow(s, b->t, t);
-  if (status && !b->ended && leap(s, t)) {
-    s->failure = before;
-    status = RT_OK;
-  }
+  if (status && !b->ended && leap(s, t)) s->failure = before, status = RT_OK;
   b->reached = status ? NAN : t;
   s->data.contraction = (mdl_contraction){0};
   s->data.facing = b->facing;
@@ -218,9 +215,7 @@ rt_status rt_branch_reach(rt_session *s, double end) {
   rt_failure before = s->failure;
   s->t = end;
   rt_status status = reach(s, end);
-  if (s->branches.ended) return status;
-  s->t = begin;
-  s->failure = before;
+  if (!s->branches.ended) s->t = begin, s->failure = before;
   return status;
 }
 
@@ -244,8 +239,8 @@ bool rt_branch_strays(rt_session *s, double end, const double *x, const double *
   rt_status reached = rt_branch_reach(s, end);
   if (s->branches.ended) *status = reached;
   if (*status || !(end - s->t > 8 * rt_smallest_step(s))) return false;
-  if (reached || (turned && !memcmp(s->branches.facing_reached, s->branches.facing,
-                                    (size_t)s->d->n_equations * sizeof(double))))
+  if (reached ||
+      (turned && !memcmp(s->branches.facing_reached, s->branches.facing, (size_t)s->d->n_equations * sizeof(double))))
     return true;
   for (int i = 0; i < s->d->n_x; i++) {
     double moved = fabs(xdot[i] - s->branches.xdot_reached[i]) * (end - s->t);

@@ -195,10 +195,11 @@ static double try_over(rt_session *s, rt_onestep *o, double h) {
   return o->scheme->attempt(s, o, h) || rt_check_finite(s, o->f1) ? -1 : norm(s, o->error);
 }
 
-/* Where IDA does not get on: at a corner of nonlinear equations their branch ends (the trigger of Schmitt), and Newton's
- * method, from what IDA predicts, never comes across; where flows by a root come to rest, unknowns have infinite slopes.
- * The solver of the blocks finds what is behind. Steps by Dormand & Prince, twice as long each, from the length `h` on,
- * until the unknowns jump or the step errs by more than the tolerance: the longest is the session's. False: none is. */
+/* Where IDA does not get on: at a corner of nonlinear equations their branch ends (the trigger of Schmitt), and
+ * Newton's method, from what IDA predicts, never comes across; where flows by a root come to rest, unknowns have
+ * infinite slopes. The solver of the blocks finds what is behind. Steps by Dormand & Prince, twice as long each, from
+ * the length `h` on, until the unknowns jump or the step errs by more than the tolerance: the longest is the session's.
+ * False: none is. */
 bool rt_ida_step_over(rt_session *s, rt_ida *m, double h, double limit) {
   rt_onestep *o = m->starter;
   if (!s->d->n_branches || s->sensitivities || s->undetermined) return false;

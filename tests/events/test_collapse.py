@@ -6,13 +6,15 @@ from pathlib import Path
 
 import pytest
 
-from tests.events.models import simulated
+from lacuna import runtime
+from tests.events.models import compiled, simulated
 
 # Newton's method on the root of |z - y| goes to and fro between both sides of it.
 CYCLE = """model Cycle
+  parameter Real p = 1;
   Real x(start = 1, fixed = true), other(start = 3, fixed = true), z(start = 0), y(start = 1);
 equation
-  der(x) = -z;
+  der(x) = -p*z;
   der(other) = -other;
   y = x + cos(5*other);
   noEvent(if z > y then sqrt(abs(z - y)) else -sqrt(abs(z - y))) = 0;
@@ -29,10 +31,17 @@ end Jumps;
 
 
 def test_newtons_method_names_the_equation(tmp_path: Path) -> None:
-    result = simulated(tmp_path, CYCLE, solver="ida", stop=3.0)
-    said = str(result.failure)
-    assert "Cycle.mo:7: integrating" in said and "did not converge" in said
-    assert "(y = " in said and result.failure.line == 7
+    """With sensitivities nothing steps over what IDA's own Newton method does not solve."""
+    model = compiled(tmp_path, CYCLE, sensitivities=True)
+    result = runtime.simulate(model, solver="ida", stop=3.0, sensitivities=["p"])
+    assert result.failure.line == 8 and "Cycle.mo:8" in str(result.failure)
+    assert "(y = " in str(result.failure)
+
+
+def test_the_solver_of_the_blocks_goes_where_idas_newton_method_does_not(tmp_path: Path) -> None:
+    ours, other = (simulated(tmp_path, CYCLE, solver=s, stop=3.0, rtol=1e-6) for s in ("ida", "dopri5"))
+    assert ours.complete, ours.failure
+    assert ours["x"][-1] == pytest.approx(other["x"][-1], abs=1e-4)
 
 
 @pytest.mark.parametrize(("solver", "why"), [("ida", "changes fastest"), ("rodas4", "has the largest error")])

@@ -207,16 +207,15 @@ static void mdl_newton_compare(mdl_newton *s, const double *step, int small) {
   s->last = size;
 }
 
-/* For the runtime: the first block, since it asked, whose steps do not shrink or whose root is of another branch, or
- * the one that comes nearest to it. */
+/* For the runtime: the first block, since it asked, whose steps do not shrink, or the one that comes nearest to it; and
+ * one whose root is of another branch. */
 static void mdl_newton_tell(mdl_data *m, const mdl_newton *s, int equation) {
   mdl_contraction *c = &m->contraction;
-  const int turned = s->orientation * m->facing[equation] < 0.0;
-  const double ratio = turned ? INFINITY : s->ratio;
+  if (s->orientation * m->facing[equation] < 0.0) c->turned = 1 + equation;
   if (s->orientation != 0.0) m->orientation[equation] = s->orientation;
-  c->turned |= turned;
-  if (c->only ? c->only != 1 + equation : c->ratio > MDL_CONTRACTS || !(ratio > c->ratio)) return;
-  *c = (mdl_contraction){ratio, equation, c->only, c->turned};
+  if (c->only ? c->only != 1 + equation : c->ratio > MDL_CONTRACTS || !(s->ratio > c->ratio)) return;
+  c->ratio = s->ratio;
+  c->equation = equation;
 }
 
 /* Of the matrix that mdl_solve has left, whose rows were exchanged without a change of its determinant. */
