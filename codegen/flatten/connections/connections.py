@@ -100,9 +100,14 @@ def _unconnected(sets: ConnectionSets, context: Context) -> list[flat.Equation]:
 
 def _connect(item: ast.Connect, scope: Scope, sets: ConnectionSets, equations: list[flat.Equation]) -> None:
     sides, sizes = [], []
-    for ref in (item.left, item.right):
+    for ref, other in ((item.left, item.right), (item.right, item.left)):
         outside = is_outside(ref, scope)
-        found, shape = connectors_in_shape(ref, scope)
+        try:
+            found, shape = connectors_in_shape(ref, scope)
+        except Diagnostic:
+            if not _is_there(other, scope):
+                return  # nor is what it would have brought to a bus
+            raise
         sizes.append(shape)
         for node in found:
             refuse_element(node, ref)
@@ -131,6 +136,13 @@ def _connect(item: ast.Connect, scope: Scope, sets: ConnectionSets, equations: l
             _require_alike(part, b[key], item, scope)
             if part.kind != "fixed":
                 sets.join(part, b[key], item.span, scope.instance.name)
+
+
+def _is_there(ref: ast.Ref, scope: Scope) -> bool:
+    try:
+        return bool(connectors_in_shape(ref, scope)[0])
+    except Diagnostic:
+        return True
 
 
 def _counted(sizes: tuple[int, ...]) -> str:
