@@ -48,7 +48,7 @@ int rt_derivatives(rt_session *s, double t, const double *x, double *xdot, doubl
  * their roots face is unknown until their Jacobians have been asked for. */
 int rt_evaluate_into(rt_session *s, double *v) {
   mdl_data *m = &s->data;
-  memset(s->branches.orientation, 0, (size_t)s->d->n_equations * sizeof(double));
+  if (s->d->n_branches) memset(s->branches.orientation, 0, (size_t)s->d->n_equations * sizeof(double));
   int status = rt_rhs(s, s->t, m->x, m->xdot, v);
   if (!status) status = rt_check_finite(s, m->xdot);
   if (!status && s->d->n_rel) {

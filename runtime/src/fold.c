@@ -77,8 +77,9 @@ void rt_branch_start(rt_session *s) {
 /* After an event and at an accepted point. */
 void rt_branch_begin(rt_session *s) {
   s->branches.ended = false;
+  if (!s->d->n_branches) return;
   memcpy(s->branches.x, s->data.x, (size_t)s->d->n_x * sizeof(double));
-  if (s->d->n_branches) set_out(s, s->t, s->data.v, s->data.xdot, s->branches.orientation);
+  set_out(s, s->t, s->data.v, s->data.xdot, s->branches.orientation);
 }
 
 /* The point (t, x_trial) from the values reached, in v_tried; 0 found. `only`: 0, or 1 + the block to watch. */
