@@ -141,9 +141,9 @@ def typed(item: Expr | str, kind: str, name: str, span: Span) -> Expr | str:
     return item
 
 
-def unset(kind: str) -> Expr:
-    """Stands for a variable that nothing was assigned to."""
-    return ex.node("unset", (), None, kind)
+def unset(kind: str, name: str) -> Expr:
+    """Stands for a variable of that name that nothing was assigned to."""
+    return ex.node("unset", (), name, kind)
 
 
 _Given = dict[str, tuple[ast.Modification, Scope]]  # what is said of fields, and where
@@ -152,7 +152,9 @@ _Given = dict[str, tuple[ast.Modification, Scope]]  # what is said of fields, an
 def blank(local: Local, scope: Scope, given: _Given | None = None) -> Value:
     """What a variable holds before anything is assigned, in the sizes that it is declared with."""
     shape = tuple(0 if local.is_flexible else n for n in declared_sizes(local, scope, local.nothing))
-    nothing = unset(local.type.primitive) if local.type.primitive else _blank_record(local, scope, given or {})
+    nothing = (
+        unset(local.type.primitive, local.name) if local.type.primitive else _blank_record(local, scope, given or {})
+    )
     return Array(shape, (nothing,) * prod(shape)) if shape else nothing
 
 
@@ -221,6 +223,9 @@ def result_of(local: Local, value: Value, cls: ast.Class, context: Context) -> V
         missing = [n for n in ex.walk(s) if n.op == "unset"] if isinstance(s, Expr) else []
         if missing and (always_reads(s, missing) or any(n.type == BOOLEAN for n in missing)):
             message = f"the output {local.name} of {cls.name} is not assigned in every case"
+            others = {d.name for d in signature_of(cls, context).locals} - {local.name}
+            if early := next((n.value for n in missing if n.value in others), None):
+                message = f"{early} of {cls.name} is read before it has a value"
             raise Diagnostic("F033", message, span, "assign it, or give it a value first")
         if missing and all(w.span != span for w in context.warnings):
             message = f"the output {local.name} of {cls.name} is not assigned where no condition holds"
