@@ -21,7 +21,7 @@ from lacuna.codegen.flatten.connections.structure import Structure
 from lacuna.codegen.flatten.equations.algorithms import carriers, flatten_algorithm
 from lacuna.codegen.flatten.equations.asserts import require_lasting
 from lacuna.codegen.flatten.equations.equations import Collected, check_discrete
-from lacuna.codegen.flatten.equations.sections import flatten_items
+from lacuna.codegen.flatten.equations.sections import flatten_items, scope_of
 from lacuna.codegen.flatten.equations.texts import bind_texts
 from lacuna.codegen.flatten.equations.variables import (
     add_used_constants,
@@ -35,7 +35,6 @@ from lacuna.codegen.flatten.expressions.operators import Required
 from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier
-from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.references.written import check_written
 from lacuna.codegen.flatten.untaken import check_untaken
 from lacuna.codegen.library.classes import MODEL_KINDS, Library
@@ -234,7 +233,7 @@ def _sections(sections: list[tuple[ast.Section, ast.Class, Instance]]) -> tuple[
     body, initial = Collected(), Collected()
     for section, cls, instance in sections:
         context = instance.context
-        scope = Scope(context, cls, instance, initial=section.initial, pure=not section.initial)
+        scope = scope_of(section, cls, instance)
         out = initial if section.initial else body
         with context.attempt():
             if section.algorithm:

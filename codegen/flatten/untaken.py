@@ -13,9 +13,8 @@ from lacuna.codegen.flatten.classes.inheritance import Element
 from lacuna.codegen.flatten.classes.instance import Absent, ArrayNode, Instance, Node
 from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.equations.equations import Collected
-from lacuna.codegen.flatten.equations.sections import flatten_item
+from lacuna.codegen.flatten.equations.sections import flatten_item, scope_of
 from lacuna.codegen.flatten.equations.variables import flatten_variables
-from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.references.written import instances
 from lacuna.codegen.syntax import ast
 
@@ -47,7 +46,7 @@ def _check(look: Callable[[], None], instance: Instance) -> None:
 
 def _check_branches(instance: Instance) -> None:
     for section, cls in instance.sections:
-        scope = Scope(instance.context, cls, instance, initial=section.initial, pure=not section.initial)
+        scope = scope_of(section, cls, instance)
         for item in () if section.algorithm else _in_branches(section.items):
             _check(partial(flatten_item, item, scope, Collected()), instance)
 
@@ -66,7 +65,7 @@ def _check_component(instance: Instance, element: Element) -> None:
             flatten_variables(part, flat.FlatModel("", part.span, ""))
             continue
         for section, cls in part.sections:
-            scope = Scope(part.context, cls, part, initial=section.initial, pure=not section.initial)
+            scope = scope_of(section, cls, part)
             for item in () if section.algorithm else section.items:
                 flatten_item(item, scope, Collected())
 

@@ -10,7 +10,7 @@ from lacuna.codegen.flatten.names.component import Component
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier, from_tree, merge, same_modifier
 from lacuna.codegen.flatten.names.scope import PRIMITIVES, Scope, base_class, base_clauses, find_class, own_or_inherited
-from lacuna.codegen.flatten.names.unknown import unknown_class
+from lacuna.codegen.flatten.names.unknown import unknown_class, unknown_element
 from lacuna.codegen.flatten.names.views import constraints_of
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.alike import alike
@@ -173,8 +173,7 @@ class Inheritance:
             if name in elements:
                 continue
             if own_or_inherited(self._context.library, cls, name) is None:
-                hint = did_you_mean(name, elements, f"{cls.name} has {', '.join(list(elements)[:10]) or 'no elements'}")
-                raise Diagnostic("R032", f"{cls.path} has no element {name} to modify", child.span, hint)
+                raise unknown_element(cls, name, elements, child.span)
             if child.value is not None:
                 hint = did_you_mean(name, elements, f"modify what is in it: {name}(...)")
                 raise Diagnostic("R032", f"{name} is a class of {cls.path} and has no value", child.span, hint)

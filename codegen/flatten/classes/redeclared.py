@@ -16,10 +16,10 @@ from lacuna.codegen.flatten.names.scope import (
     is_impure,
     own_or_inherited,
 )
+from lacuna.codegen.flatten.names.unknown import unknown_element
 from lacuna.codegen.flatten.names.views import constrain, modified, view
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax import ast
-from lacuna.suggest import did_you_mean
 
 
 def redeclaration(
@@ -61,8 +61,7 @@ def _refuse_unknown(old: ast.Component, declared: Type, own: Scope, elements: El
     known = elements(cls) if cls is not None and old.modification.arguments else {}
     for a in old.modification.arguments if cls is not None else ():
         if a.name not in known and own_or_inherited(own.context.library, cls, a.name) is None:
-            hint = did_you_mean(a.name, known, f"{cls.name} has {', '.join(list(known)[:10]) or 'no elements'}")
-            raise Diagnostic("R032", f"{cls.path} has no element {a.name} to modify", a.span, hint)
+            raise unknown_element(cls, a.name, known, a.span)
 
 
 def _narrowed(new: ast.Component, scope: Scope, bound: Type, elements: ElementsOf) -> Type:

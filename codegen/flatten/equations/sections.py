@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.classes.instance import Instance
 from lacuna.codegen.flatten.connections.overconstrained import STATEMENTS, graph_of
 from lacuna.codegen.flatten.equations.asserts import lower_assert
 from lacuna.codegen.flatten.equations.conditionals import flatten_if
@@ -12,6 +13,11 @@ from lacuna.codegen.flatten.equations.equations import Collected, equalities, un
 from lacuna.codegen.flatten.equations.when import flatten_when
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.syntax import ast
+
+
+def scope_of(section: ast.Section, cls: ast.Class, instance: Instance) -> Scope:
+    """Where the names of a section are looked up that `instance` has from `cls`, itself or a base."""
+    return Scope(instance.context, cls, instance, initial=section.initial, pure=not section.initial)
 
 
 def flatten_items(items: list[ast.Item], scope: Scope, out: Collected) -> None:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
-from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.names.scope import (
     PRIMITIVES,
     Scope,
@@ -55,6 +56,13 @@ def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> 
             else f"an encapsulated class around it sees only what it imports: import ...{missing};"
         )
     return Diagnostic("R001", f"there is no {what} {ref}", ref.span, hint)
+
+
+def unknown_element(cls: ast.Class, name: str, known: Iterable[str], span: Span) -> Diagnostic:
+    """R032: a class has no element of this name to modify, with the nearest that it has."""
+    names = list(known)
+    hint = did_you_mean(name, names, f"{cls.name} has {', '.join(names[:10]) or 'no elements'}")
+    return Diagnostic("R032", f"{cls.path} has no element {name} to modify", span, hint)
 
 
 def unknown_function(ref: ast.Ref, scope: Scope) -> Diagnostic:
