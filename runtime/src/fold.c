@@ -183,12 +183,16 @@ static void go_back(rt_session *s) {
   turn(s, b->facing_reached, b->facing);
 }
 
-/* At one go, where Newton's steps shrink: past a point where the Jacobian is singular, which the branch goes through.
- */
+/* The point at t of the last step, from the last of the run: 0 found, in v_tried. */
+int rt_branch_look(rt_session *s, double t) {
+  go_back(s);
+  return look(s, t, 0);
+}
+
+/* At one go, where Newton's steps shrink: past a singular point that the branch goes through. */
 static bool leap(rt_session *s, double t) {
   rt_branches *b = &s->branches;
-  go_back(s);
-  if (look(s, t, 0) || s->data.contraction.ratio > MDL_CONTRACTS) return false;
+  if (rt_branch_look(s, t) || s->data.contraction.ratio > MDL_CONTRACTS) return false;
   copy(s, b->v_reached, b->xdot_reached, b->v_tried, b->xdot_tried);
   turn(s, b->facing_reached, b->aside);
   return true;
@@ -209,52 +213,19 @@ static rt_status reach(rt_session *s, double t) {
   return status;
 }
 
-/* To `end`, which a step that is not the session's yet has come to: v_reached there. Nothing has failed but the step,
- * unless the branch ends. */
+/* To `end`, which a step that is not the session's yet has come to: v_reached there. The session is left where it is,
+ * unless the branch ends: then it is there. */
 rt_status rt_branch_reach(rt_session *s, double end) {
   double begin = s->t;
   rt_failure before = s->failure;
+  mdl_failure told = s->data.failure;
   s->t = end;
   rt_status status = reach(s, end);
-  if (!s->branches.ended) s->t = begin, s->failure = before;
+  if (s->branches.ended) return status;
+  s->t = begin;
+  s->failure = before;
+  s->data.failure = told;
   return status;
-}
-
-/* Whether a relation has changed by the end of a step: what is solved behind its crossing counts for nothing. */
-static bool crosses(rt_session *s, double end) {
-  rt_branches *b = &s->branches;
-  if (!s->d->n_rel) return false;
-  go_back(s);
-  if (look(s, end, 0) || s->d->roots(&s->data, end, s->x_trial, b->xdot_tried, b->v_tried, s->g_trial)) return false;
-  for (int r = 0; r < s->d->n_rel; r++)
-    if (rt_is_state_relation(s, r) && (s->data.rel[r] ? s->g_trial[r] <= 0 : s->g_trial[r] > 0)) return true;
-  return false;
-}
-
-/* Whether a step to `end` (x, x' there) has left the branch of a nonlinear block on which it began: a solution of
- * another one was nearer, and over the step the derivatives there move a state by more than its tolerance; or one was
- * met on the way (`turned`), though the branch has not turned itself; or the step is too long to follow the branch.
- * Where that ends, so does the run. A step that can hardly be shorter is taken: there unknowns jump. */
-bool rt_branch_strays(rt_session *s, double end, const double *x, const double *xdot, bool turned, rt_status *status) {
-  if (!s->d->n_branches || crosses(s, end)) return false;
-  rt_status reached = rt_branch_reach(s, end);
-  if (s->branches.ended) *status = reached;
-  if (*status || !(end - s->t > 8 * rt_smallest_step(s))) return false;
-  if (reached ||
-      (turned && !memcmp(s->branches.facing_reached, s->branches.facing, (size_t)s->d->n_equations * sizeof(double))))
-    return true;
-  for (int i = 0; i < s->d->n_x; i++) {
-    double moved = fabs(xdot[i] - s->branches.xdot_reached[i]) * (end - s->t);
-    if (moved > s->options.rtol * fabs(x[i]) + s->atol[i]) return true;
-  }
-  return false;
-}
-
-/* A step has been given up: from where it began. */
-void rt_branch_retreat(rt_session *s) {
-  if (!s->d->n_branches) return;
-  turn(s, s->branches.orientation, s->branches.facing);
-  s->data.contraction = (mdl_contraction){0};
 }
 
 /* Where the branch has been followed to the session's point, its solution as what nonlinear blocks start from. */

@@ -23,8 +23,12 @@ void rt_branch_begin(rt_session *s);
 rt_status rt_branch_row(rt_session *s, double t, double *xdot, double *v, bool found);
 bool rt_branch_take(rt_session *s);
 rt_status rt_branch_reach(rt_session *s, double end);
+int rt_branch_look(rt_session *s, double t);
+rt_status rt_branch_follow(rt_session *s);
+
+/* stray.c */
+bool rt_branch_is_reached(rt_session *s, double end);
 bool rt_branch_strays(rt_session *s, double end, const double *x, const double *xdot, bool turned, rt_status *status);
 void rt_branch_retreat(rt_session *s);
-rt_status rt_branch_follow(rt_session *s);
 
 #endif

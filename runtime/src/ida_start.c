@@ -100,23 +100,10 @@ static double walk(rt_session *s, rt_ida *m, double length) {
 static bool strays(rt_session *s, const rt_ida *m) {
   mdl_contraction seen = s->data.contraction;
   if (!s->d->n_branches || (seen.ratio <= MDL_CONTRACTS && !seen.turned)) return false;
-  size_t size = (size_t)s->d->n_x * sizeof *s->data.x;
-  rt_failure failure = s->failure;
-  rt_status ended = RT_OK;
-  double t = s->t;
-  memcpy(s->x_before, s->data.x, size);
-  memcpy(s->xdot_before, s->data.xdot, size);
   s->dense.valid = false;
-  bool strays = rt_branch_strays(s, m->start_t[STEPS - 1], m->starter->x1, m->starter->f1, seen.turned, &ended);
-  if (ended) {
-    memcpy(s->data.x, s->x_before, size);
-    memcpy(s->data.xdot, s->xdot_before, size);
-    s->t = t;
-    s->failure = failure;
-    s->branches.ended = false;
-  }
+  bool strays = rt_branch_strays(s, m->start_t[STEPS - 1], m->starter->x1, m->starter->f1, seen.turned, NULL);
   s->data.contraction = seen;
-  return strays || ended;
+  return strays;
 }
 
 /* The same, infinite too where the guards want a shorter way (swings.c), or the branch of a nonlinear block does. */
