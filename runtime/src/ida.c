@@ -14,7 +14,8 @@ static const double alike = 1.5e-8;           /* root of rounding */
 static const double finest = 8 * DBL_EPSILON; /* relative tolerance that steps can still be tested by */
 static const double relief =
     1.02;               /* of the tolerances in a step: a guard that swings comes back before they are slack */
-enum { STALLS = 4 };    /* steps in a row that left a branch, or vanished: IDA does not get on by itself */
+enum { STALLS = 4 };    /* steps in a row that left a branch, vanished, or took Newton's method more than one attempt,
+                         * by one more than those that did not: IDA does not get on by itself */
 enum { RESOLVING = 3 }; /* order from which on polynomials bend as guards do; below, IDA is starting */
 /* IDA doubles a step where that errs by its tolerance at most, and then keeps it: it gets half of what is allowed. */
 static const double half = 0.5;
@@ -122,6 +123,7 @@ static rt_status restart(rt_session *s, void *p) {
   m->started = m->fresh = true;
   m->known = RT_IDA_STARTS;
   m->start_steps = 0;
+  m->newton_fails = 0;
   rt_newton_forget(m->newton);
   m->serves = false;
   m->pivots_chosen_at = -1; /* other equations hold, and the old pivots may have become tiny */
@@ -226,6 +228,18 @@ static int evaluate(rt_session *s) {
   return status ? status : rt_check_finite(s, m->xdot);
 }
 
+/* A step that Newton's method has failed in counts twice: IDA takes two steps from failure to failure where it tries
+ * twice the length at every second one, in vain. */
+static void count_stalls(rt_ida *m, bool apart) {
+  long fails = 0;
+  IDAGetNumNonlinSolvConvFails(m->ida, &fails);
+  if (apart || fails > m->newton_fails)
+    m->stalls += apart ? 1 : 2;
+  else if (m->stalls > 0)
+    m->stalls--;
+  m->newton_fails = fails;
+}
+
 static bool steps_over(rt_session *s, rt_ida *m, double limit) {
   sunrealtype h = 0;
   m->stalls = STALLS / 2;
@@ -252,7 +266,7 @@ static rt_status step(rt_session *s, void *p, double limit) {
   if (evaluate(s)) return rt_fail_model(s, s->t, "evaluating the explicit form");
   bool apart = differ(s, z, s->data.v);
   if (apart) s->pending |= RT_PENDING_BRANCH;
-  m->stalls = apart ? m->stalls + 1 : 0;
+  count_stalls(m, apart);
   return rt_ida_tangent_step(s, m);
 }
 

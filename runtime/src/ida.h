@@ -30,7 +30,8 @@ typedef struct {
   double *starts, start_t[RT_IDA_STARTS]; /* [RT_IDA_STARTS * (n_x + n_z)] points of a start */
   int start_steps;                        /* of IDA's, that were those of a start */
   bool fresh;                             /* restarted, no step yet */
-  int stalls;                             /* steps in a row that left a branch */
+  int stalls;                             /* steps that did not get on, less those that did */
+  long newton_fails;                      /* of IDA's since the restart, up to the last step */
   int known;                              /* of those, IDA has taken so many */
   long taken;                             /* steps that IDA had taken there */
   double share;                           /* of the tolerances, that guards far smaller than the states leave of them */

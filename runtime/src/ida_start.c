@@ -96,12 +96,13 @@ static double walk(rt_session *s, rt_ida *m, double length) {
   return largest;
 }
 
-/* Whether the steps have left the branch of a nonlinear block, or would end the run with it: shorter ones tell. */
-static bool strays(rt_session *s, const rt_ida *m) {
+/* Whether the steps to `end` have left the branch of a nonlinear block, or would end the run with it: shorter ones
+ * tell. */
+static bool strays(rt_session *s, const rt_ida *m, double end) {
   mdl_contraction seen = s->data.contraction;
   if (!s->d->n_branches || (seen.ratio <= MDL_CONTRACTS && !seen.turned)) return false;
   s->dense.valid = false;
-  bool strays = rt_branch_strays(s, m->start_t[STEPS - 1], m->starter->x1, m->starter->f1, seen.turned, NULL);
+  bool strays = rt_branch_strays(s, end, m->starter->x1, m->starter->f1, seen.turned, NULL);
   s->data.contraction = seen;
   return strays;
 }
@@ -110,7 +111,7 @@ static bool strays(rt_session *s, const rt_ida *m) {
 static double attempt(rt_session *s, rt_ida *m, double length) {
   double error = walk(s, m, length);
   if (!(error <= within * accuracy)) return error;
-  if (strays(s, m)) return INFINITY;
+  if (strays(s, m, m->start_t[STEPS - 1])) return INFINITY;
   if (!s->d->guard_rates) return error;
   s->dense.valid = false;
   return rt_swing_error(s, m->start_t[STEPS - 1], m->starter->error) <= 1 ? error : INFINITY;
@@ -165,50 +166,63 @@ int rt_ida_follow_start(rt_ida *m, double limit) {
   return flag;
 }
 
-static bool jumped(const rt_session *s) {
-  for (int k = 0; k < s->d->n_z; k++) {
-    double from = s->v_before[s->d->z_index[k]], to = s->data.v[s->d->z_index[k]];
-    if (fabs(to - from) > s->options.rtol * rt_max(fabs(from), fabs(to)) + s->atol[s->d->n_x + k]) return true;
+/* The polynomial of the starter's step over h: of degree 4, through as many points in it. */
+static void keep_over(rt_session *s, rt_ida *m, rt_onestep *o, double h) {
+  o->h = h;
+  rt_onestep_dense(s, o, &s->dense);
+  s->dense.valid = false;
+  m->latest = m->first;
+  m->order = s->dense.degree;
+  for (int j = 1; j < m->order; j++) {
+    double t = o->t0 + j * h / m->order;
+    rt_dense_eval(&s->dense, s->d->n_x, t, s->x_trial);
+    rt_ida_push(s, m, t, s->x_trial);
   }
-  return false;
+  rt_ida_push(s, m, o->t0 + h, o->x1);
 }
 
-/* One step of Dormand & Prince from the session's point; its error in tolerances, negative where it cannot be taken. */
-static double try_over(rt_session *s, rt_onestep *o, double h) {
+/* One step of Dormand & Prince from the session's point; its error in tolerances, as the states and the guards have
+ * it, negative where it cannot be taken. */
+static double try_over(rt_session *s, rt_ida *m, double h) {
+  rt_onestep *o = m->starter;
   memcpy(s->data.v, s->v_before, (size_t)s->d->n_v * sizeof *s->data.v);
   memcpy(o->x0, s->data.x, (size_t)s->d->n_x * sizeof *o->x0);
   memcpy(o->f0, s->data.xdot, (size_t)s->d->n_x * sizeof *o->f0);
   o->t0 = s->t;
-  return o->scheme->attempt(s, o, h) || rt_check_finite(s, o->f1) ? -1 : norm(s, o->error);
+  if (o->scheme->attempt(s, o, h) || rt_check_finite(s, o->f1)) return -1;
+  double error = norm(s, o->error);
+  if (!(error <= 1)) return isnan(error) ? -1 : error;
+  keep_over(s, m, o, h);
+  return s->d->guard_rates ? rt_max(error, rt_swing_error(s, s->t + h, o->error)) : error;
 }
 
 /* Where IDA does not get on: at a corner of nonlinear equations their branch ends (the trigger of Schmitt), and
- * Newton's method, from what IDA predicts, never comes across; where flows by a root come to rest, unknowns have
- * infinite slopes. The solver of the blocks finds what is behind. Steps by Dormand & Prince, twice as long each, from
- * the length `h` on, until the unknowns jump or the step errs by more than the tolerance: the longest is the session's.
- * False: none is. */
+ * Newton's method, from what IDA predicts, never comes across; where flows by a root come to rest or turn, unknowns
+ * have infinite slopes. The solver of the blocks finds what is behind. Steps by Dormand & Prince, twice as long each,
+ * from the length `h` on, until one errs by more than the tolerance or leaves the branch: the longest that does not is
+ * the session's. Where each leaves it, it is the shortest that can be taken. False: there is none. */
 bool rt_ida_step_over(rt_session *s, rt_ida *m, double h, double limit) {
-  rt_onestep *o = m->starter;
   if (!s->d->n_branches || s->sensitivities || s->undetermined) return false;
-  double taken = 0, tried = 0, error = 0;
+  double taken = 0, tried = 0;
+  bool goes_on = true;
+  if (s->options.max_step > 0) limit = rt_min(limit, s->t + s->options.max_step);
   memcpy(s->v_before, s->data.v, (size_t)s->d->n_v * sizeof *s->v_before);
-  for (h = rt_max(h, rt_smallest_step(s)); s->t + h < limit && error <= 1; h *= 2) {
-    error = try_over(s, o, tried = h);
-    if (error < 0 || error > 1) continue;
-    taken = h;
-    if (jumped(s)) break;
+  m->first = m->latest;
+  for (h = rt_max(h, rt_smallest_step(s)); s->t + h < limit && goes_on; h *= 2) {
+    double error = try_over(s, m, tried = h);
+    if (error < 0) continue;
+    goes_on = error <= 1 && !strays(s, m, s->t + h);
+    if (error <= 1 && (goes_on || !(taken > 0))) taken = h;
   }
-  if (!(taken > 0) || (tried != taken && !(fabs(try_over(s, o, taken)) <= 1))) {
+  if (!(taken > 0) || (tried != taken && !(fabs(try_over(s, m, taken)) <= 1))) {
     memcpy(s->data.v, s->v_before, (size_t)s->d->n_v * sizeof *s->data.v);
     return false;
   }
+  const rt_onestep *o = m->starter;
   s->data.failure.kind = MDL_FAILURE_NONE;
   s->t += taken;
   memcpy(s->data.x, o->x1, (size_t)s->d->n_x * sizeof *o->x1);
   memcpy(s->data.xdot, o->f1, (size_t)s->d->n_x * sizeof *o->f1);
-  m->first = m->latest;
-  m->order = 1;
-  rt_ida_push(s, m, s->t, s->data.x);
   s->pending |= RT_PENDING_BRANCH;
   s->result->counters.steps++;
   return true;

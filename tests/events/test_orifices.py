@@ -90,3 +90,56 @@ end Orifice;
     exact = np.array([quarter, -quarter, quarter, -quarter, quarter])
     np.testing.assert_allclose(r["V"][2::4] / unit, exact, atol=2e-5)
     np.testing.assert_allclose(r["q"] * abs(r["q"]), r["dp"], atol=1e-9 * unit**2)
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+@pytest.mark.parametrize("rtol", [1e-5, 1e-7, 1e-8])
+def test_levels_that_come_to_equal_through_an_implicit_flow(tmp_path: Path, solver: str, rtol: float) -> None:
+    """q' = -2 until the flow ends, and nothing moves from then on: what is left of the levels is rounding."""
+    text = """model Levels
+  Real h[2](start={2, 1}, each fixed=true), q;
+equation
+  der(h) = {-q, q}; h[1] - h[2] = 0.5*q*abs(q);
+end Levels;"""
+    r = simulated(tmp_path, text, solver=solver, stop=5, rtol=rtol, interval=0.25)
+    assert r.complete, r.failure
+    flow = np.maximum(math.sqrt(2) - 2 * r["time"], 0)
+    np.testing.assert_allclose(r["h[1]"] - r["h[2]"], 0.5 * flow**2, atol=100 * rtol)
+    assert r.counters["steps"] < 50_000
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6, 1e-8])
+def test_orifices_that_all_reverse_at_once(tmp_path: Path, solver: str, rtol: float) -> None:
+    """Every flow is the same multiple of the root of what drives it, and so passes zero with it."""
+    text = """model Network
+  Real ps = cos(time), p[2], q[4], V(start=0, fixed=true);
+equation
+  ps - p[1] = q[1]*abs(q[1]); p[1] - p[2] = 2*q[2]*abs(q[2]); p[1] = 3*q[3]*abs(q[3]); p[2] = q[4]*abs(q[4]);
+  q[1] = q[3] + q[2]; q[2] = q[4];
+  der(V) = q[1];
+end Network;"""
+    r = simulated(tmp_path, text, solver=solver, stop=3 * np.pi, rtol=rtol, interval=np.pi, events=False)
+    assert r.complete, r.failure
+    branches = 2 / math.sqrt(3)  # of the same resistance each, 3: of the sum of the squares
+    conductance = branches / math.sqrt(1 + branches**2)
+    quarter = math.gamma(0.75) * math.sqrt(math.pi) / (2 * math.gamma(1.25))
+    np.testing.assert_allclose(r["V"], 0 * r["V"], atol=200 * rtol * quarter)
+    np.testing.assert_allclose(abs(r["q[1]"]), conductance, rtol=1e-6)
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6, 1e-8])
+def test_a_cube_root_passes_through_zero(tmp_path: Path, solver: str, rtol: float) -> None:
+    """The Jacobian vanishes there, and the unknown has an infinite slope, where a step of h is wrong by h^(4/3),
+    of which its estimate sees a part; over a half turn nothing is left."""
+    text = """model Cube
+  Real x(start=1), z(start=0, fixed=true);
+equation
+  x^3 = cos(time); der(z) = x;
+end Cube;"""
+    r = simulated(tmp_path, text, solver=solver, stop=3 * np.pi, rtol=rtol, interval=np.pi / 2, events=False)
+    assert r.complete, r.failure
+    quarter = math.sqrt(math.pi) / 2 * math.gamma(2 / 3) / math.gamma(7 / 6)
+    exact = quarter * np.array([0, 1, 0, -1, 0, 1, 0])
+    np.testing.assert_allclose(r["z"], exact, atol=1000 * rtol)
