@@ -13,8 +13,10 @@
 static const double alike = 1.5e-8;           /* root of rounding */
 static const double finest = 8 * DBL_EPSILON; /* relative tolerance that steps can still be tested by */
 static const double relief =
-    1.02;               /* of the tolerances in a step: a guard that swings comes back before they are slack */
-enum { STALLS = 4 };    /* steps in a row that left a branch, vanished, or took Newton's method more than one attempt,
+    1.02; /* of the tolerances in a step: a guard that swings comes back before they are slack */
+enum {
+  STALLS = 4
+};                      /* steps in a row that left a branch, vanished, or took Newton's method more than one attempt,
                          * by one more than those that did not: IDA does not get on by itself */
 enum { RESOLVING = 3 }; /* order from which on polynomials bend as guards do; below, IDA is starting */
 /* IDA doubles a step where that errs by its tolerance at most, and then keeps it: it gets half of what is allowed. */

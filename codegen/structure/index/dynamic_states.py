@@ -15,70 +15,68 @@ no pivot is further from the best than a factor that the numbers of rows and col
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable
 from functools import reduce
 
 from lacuna.codegen import flat
 from lacuna.codegen.structure.aliases import STATE_SELECT
 from lacuna.codegen.structure.index.pivots import base_of, text_of
+from lacuna.codegen.structure.index.tangents import Group, Tangent, product
 from lacuna.codegen.structure.system import Row, Switch
-from lacuna.codegen.symbolic.differentiate import partial
-from lacuna.codegen.symbolic.expr import BOOLEAN, ONE, ZERO, Expr, add, const, der, div, mul, node, pre, relation, var
+from lacuna.codegen.symbolic.expr import (
+    BOOLEAN,
+    FALSE,
+    Expr,
+    add,
+    const,
+    der,
+    div,
+    logical_and,
+    mul,
+    node,
+    pre,
+    relation,
+    sub,
+    var,
+)
+from lacuna.codegen.symbolic.rewrite import Rewriter
 
 BOUND = 4.0  # mean square of the entries of dq/ds at which states are chosen anew
 EXCHANGE = 2.0  # square of the smallest entry that is exchanged: well above 1, so that no exchange is taken back
 PREFERENCE = 10.0  # how much larger a pivot stateSelect puts up with: prefer and avoid, beside default
 
 
-@dataclass
-class Group:
-    """Constraints that determine all but `len(selected)` of the derivatives `free` (and all of `others`)."""
-
-    rows: list[Row]
-    free: list[Expr]  # derivatives of those that may be states
-    others: list[Expr]  # derivatives that never are states
-    selected: list[Expr]  # of `free`, those of the states at the start
-
-
-class Selection:
+class Selection(Tangent):
     """The variables, rows, guard and algorithm of one group; `sizes` gives the nominal value of a candidate."""
 
     def __init__(self, number: int, group: Group, model: flat.FlatModel, sizes: dict[Expr, Expr]):
-        self.group, self._number = group, number
-        self._span, self._origin = group.rows[0].source.span, group.rows[0].source.origin
+        self._weights = {d: const(_weight(model, d)) for d in (*group.free, *group.others)}
+        super().__init__(number, group, {d: mul(sizes[d.args[0]], w) for d, w in self._weights.items()})
         self._candidates = [d.args[0] for d in group.free]
         self._sizes = [sizes[d.args[0]] for d in group.free]
-        self._scales = {d: mul(sizes[d.args[0]], const(_weight(model, d))) for d in (*group.free, *group.others)}
         self.states = [f"$state{number}[{i + 1}]" for i in range(len(group.selected))]
-        self.variables: dict[str, flat.Variable] = {}
         for name, d in zip(self.states, group.selected, strict=True):
-            self._declare(name, f"the state of this group, at the start {text_of(d.args[0])} by its size")
-        self._tangents = [
-            {d: self._new(f"$slope{number}[{k + 1},{i + 1}]") for k, d in enumerate(self._scales)}
-            for i in range(len(self.states))
-        ]
+            self.declare(name, f"the state of this group, at the start {text_of(d.args[0])} by its size")
         self._matrix = [
             [self._entry(i, j, d is chosen) for j, d in enumerate(group.free)]
             for i, chosen in enumerate(group.selected)
         ]
 
-    # -- variables --------------------------------------------------------------------------------------------
+        self._late = self._delay() if group.reset else None
 
-    def _declare(self, name: str, description: str, **more: object) -> None:
-        self.variables[name] = flat.Variable(name, self._span, nominal=ONE, description=description, **more)
-
-    def _new(self, name: str) -> Expr:
-        self._declare(name, "slope of a candidate by a state, both by their sizes")
-        return var(name)
+    def _delay(self) -> Expr:
+        """The choice is made a pass after it has become bad, where a reinit may set the same state in that pass."""
+        name = f"$late{self.number}"
+        self.variables[name] = flat.Variable(
+            name, self.span, type=BOOLEAN, variability=flat.DISCRETE, start=FALSE,
+            description="true where another choice is made in the next pass",
+        )  # fmt: skip
+        return var(name, BOOLEAN)
 
     def _entry(self, i: int, j: int, selected: bool) -> Expr:
-        name = f"$selects{self._number}[{i + 1},{j + 1}]"
-        self._declare(
-            name, f"1 where {text_of(self._candidates[j])} is the state", variability=flat.DISCRETE,
-            start=const(float(selected)),
-        )  # fmt: skip
-        return var(name)
+        name, text = f"$selects{self.number}[{i + 1},{j + 1}]", text_of(self._candidates[j])
+        start = const(float(selected))
+        return self.declare(name, f"1 where {text} is the state", variability=flat.DISCRETE, start=start)
 
     # -- equations --------------------------------------------------------------------------------------------
 
@@ -89,28 +87,16 @@ class Selection:
         matrix = [[pre(p) for p in line] for line in self._matrix]
         for i, (name, chosen) in enumerate(zip(self.states, matrix, strict=True)):
             shares = [div(q, size) for q, size in zip(self._candidates, self._sizes, strict=True)]
-            found.append(self._row(var(name), _product(chosen, shares)))
+            found.append(self.row(var(name), product(chosen, shares)))
             rates = [div(d, size) for d, size in zip(self.group.free, self._sizes, strict=True)]
-            found.append(self._row(der(var(name)), _product(chosen, rates)))
-            slopes = self._tangents[i]
-            for k, line in enumerate(matrix):
-                along = _product(line, [slopes[d] for d in self.group.free])
-                found.append(self._row(along, const(float(k == i))))
-            for row in self.group.rows:
-                used = [d for d in self._scales if d in row.leaves]
-                terms = [mul(mul(partial(row.residual, d), self._scales[d]), slopes[d]) for d in used]
-                found.append(self._row(reduce(add, terms), ZERO))
+            found.append(self.row(der(var(name)), product(chosen, rates)))
+            found += self.along(i, matrix)
         return found
-
-    def _row(self, lhs: Expr, rhs: Expr) -> Row:
-        source = self.group.rows[-1].source
-        text = f"choice of states for  {source.text}"
-        return Row(lhs, rhs, flat.Equation(lhs, rhs, source.span, source.origin, text))
 
     # -- events -----------------------------------------------------------------------------------------------
 
     def _entries(self) -> list[tuple[int, int, Expr]]:
-        return [(i, j, self._tangents[i][d]) for i in range(len(self.states)) for j, d in enumerate(self.group.free)]
+        return [(i, j, self.slopes[i][d]) for i in range(len(self.states)) for j, d in enumerate(self.group.free)]
 
     def switch(self) -> Switch:
         """True where the choice has become a bad one. The states' own entries are ones."""
@@ -124,14 +110,42 @@ class Selection:
         """Where relation `number` holds, exchange the first state for which there is a better candidate."""
         exchanges = [(relation(">=", mul(w, w), const(EXCHANGE)), self._exchange(i, j)) for i, j, w in self._entries()]
         bad = node("rel", (), number, BOOLEAN)
-        choose = flat.If([(bad, [flat.If(exchanges, self._span)])], self._span)
-        targets = tuple(str(p.value) for line in self._matrix for p in line)
-        return flat.Algorithm([choose], targets, self._span, self._origin)
+        targets = [str(p.value) for line in self._matrix for p in line]
+        body: list[flat.Statement] = [flat.If([(bad, [flat.If(exchanges, self.span)])], self.span)]
+        if self._late:
+            body = [
+                flat.If([(logical_and(bad, pre(self._late)), [flat.If(exchanges, self.span)])], self.span),
+                flat.Assign(str(self._late.value), bad, self.span),
+            ]
+            targets.append(str(self._late.value))
+        return flat.Algorithm(body, tuple(targets), self.span, self.origin)
+
+    def set_by(self, s: flat.Reinit) -> flat.Reinit:
+        """reinit of a candidate that need not be the state: along the tangent, which is a straight line for what the
+        constraints hold linearly."""
+        d = self.group.reset
+        assert d is not None
+        weight = product([pre(p) for p in self._matrix[0]], [self._weights[k] for k in self.group.free])
+        slope = div(mul(self.scales[d], self.slopes[0][d]), weight)
+        state = var(self.states[0])
+        return flat.Reinit(self.states[0], add(state, div(sub(s.value, d.args[0]), slope)), s.span)
 
     def _exchange(self, i: int, j: int) -> list[flat.Statement]:
-        chosen = [flat.Assign(str(p.value), const(float(k == j)), self._span) for k, p in enumerate(self._matrix[i])]
+        chosen = [flat.Assign(str(p.value), const(float(k == j)), self.span) for k, p in enumerate(self._matrix[i])]
         value = div(self._candidates[j], self._sizes[j])
-        return [*chosen, flat.Reinit(self.states[i], value, self._span)]
+        return [*chosen, flat.Reinit(self.states[i], value, self.span)]
+
+
+class Resets(Rewriter):
+    """A model with the reinits of what may not be the state as those of what is; `selections` by the target."""
+
+    def __init__(self, selections: Iterable[Selection]):
+        super().__init__(lambda e: None)
+        self._by_target = {s.group.reset.args[0]: s for s in selections if s.group.reset}
+
+    def _assign(self, s: flat.Assign | flat.Reinit) -> flat.Statement:
+        selection = self._by_target.get(var(s.target)) if isinstance(s, flat.Reinit) else None
+        return selection.set_by(s) if selection and isinstance(s, flat.Reinit) else s
 
 
 def _weight(model: flat.FlatModel, derivative: Expr) -> float:
@@ -140,7 +154,3 @@ def _weight(model: flat.FlatModel, derivative: Expr) -> float:
         "default"
     )
     return PREFERENCE ** -max(-1, min(1, level))
-
-
-def _product(line: Sequence[Expr], values: Sequence[Expr]) -> Expr:
-    return reduce(add, [mul(p, v) for p, v in zip(line, values, strict=True)])

@@ -87,7 +87,7 @@ def test_pendulum_keeps_the_states_that_it_must_have(prepare) -> None:
         )
     )
     assert p.system.states == ["y", "vy"]
-    assert len(p.system.model.asserts) == 1  # which ends the run where the other coordinate is none
+    assert len(p.system.model.asserts) == 2  # which end the run where the other coordinate, and its speed, is none
     assert {"der(x)", "der(vx)", "der(der(x))"} <= set(p.system.dummies)
     assert sum(row.integral is not None for row in p.system.rows) == 4
     assert blocks(p, NonlinearBlock) == [(1, 1)]  # x from y
