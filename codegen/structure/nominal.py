@@ -8,7 +8,7 @@ In this order, for each continuous variable:
    Parameters have the size of their values, sin and cos 1, and first of all what stands in them has. Of several
    balances the smallest counts. What is found serves in the next round. Where a round finds nothing, sums inside
    products are looked at, then numbers that stand as terms (a threshold of 1e-6 says less than a parameter, but more
-   than nothing). A relation with a limit makes a size smaller than the equations alone do, never larger. A limit in min
+   than nothing: the size at least, which a run may show to be larger). A relation with a limit makes a size smaller than the equations alone do, never larger. A limit in min
    and max, or in a branch that its condition compares with, counts only beside other limits;
 3. then the length of the experiment links a variable and its derivative;
 4. an angle (unit rad) without a declared nominal has size 1, at which it acts, however many turns it makes and however
@@ -22,6 +22,7 @@ quantity. It is an expression in the parameters, computed for the values of each
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from functools import reduce
 
 from lacuna.codegen import flat
@@ -114,6 +115,7 @@ class _Inference:
         self._memo: dict[Expr, Size | None] = {}
         self._found: dict[Expr, Size] = {}
         self._numbers = False  # whether a number that stands as a term has a size
+        self._modest = False  # whether one has: what is found then is found by it
         sums = ((self._whole, False), (self._inside, False), (self._whole, True), (self._inside, True))
         self._looks = ((self._angles, False), *sums)  # each with whether numbers count
         self._pending = [dict.fromkeys(range(len(balances))) for _ in self._looks]  # balances that may tell more
@@ -200,6 +202,7 @@ class _Inference:
             pending.clear()
             if self._found:
                 self._accept(self._found)
+                self._modest |= numbers
                 return True
         return False
 
@@ -234,7 +237,7 @@ class _Inference:
         if size is None:
             return
         if e.op in ("var", "der"):
-            best = self._found.get(e)
+            best, size = self._found.get(e), replace(size, at_least=self._numbers or self._modest)
             if e not in self.sizes and self._is_continuous(e) and (best is None or size.smaller(best)):
                 self._found[e] = size
         elif e.op == "neg" or (e.op == "call" and e.value == "abs"):

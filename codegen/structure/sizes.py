@@ -17,6 +17,7 @@ class Size:
     value: float
     reason: str = ""
     terms: int = 1  # that the expression is made of
+    at_least: bool = False  # from a number that it is compared or added with: it may well be larger
 
     def smaller(self, other: Size) -> bool:
         """Whether it is the smaller estimate, or as large and simpler."""

@@ -31,7 +31,7 @@ from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.lead import joined
 from lacuna.discovery.law.empirical_law import race, simplified, unfitted
 from lacuna.discovery.law.law_screen import Proposal
-from lacuna.discovery.naming.comparison import TIE, note_laws, said, score
+from lacuna.discovery.naming.comparison import TIE, note_laws, rival_score, said
 from lacuna.discovery.naming.race import NEAR
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.runtime import SimulationError
@@ -174,7 +174,7 @@ def _put(laws: list[Candidate], law: Candidate | None, base: Fit) -> None:
     if law is not None:
         laws.append(law)
         correlation = min((c.fit for c in laws), key=lambda f: f.deviance()).correlation()
-        laws.sort(key=lambda c: score(c, base, correlation))
+        laws.sort(key=lambda c: rival_score(c, base, correlation))
 
 
 def _ranked(locator: Locator, base: Fit) -> list[Site]:
@@ -223,8 +223,8 @@ def _law_at(
 def _near(fitted: list[Proposal], best: Proposal, base: Fit) -> list[Proposal]:
     """The best law and those still in the race with it: which of them has the right form, their variants say."""
     correlation = best.candidate.fit.correlation()
-    least = score(best.candidate, base, correlation)
-    return [p for p in fitted if score(p.candidate, base, correlation) < (1 - NEAR) * least]
+    least = rival_score(best.candidate, base, correlation)
+    return [p for p in fitted if rival_score(p.candidate, base, correlation) < (1 - NEAR) * least]
 
 
 def _varied(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> list[Proposal]:
@@ -283,4 +283,4 @@ def _shortest(fitted: list[Proposal], best: Proposal, base: Fit) -> Proposal:
 def _scorer(fitted: list[Proposal], base: Fit) -> Callable[[Proposal], float]:
     """Deviance and price of a law, samples discounted alike."""
     correlation = min((p.candidate.fit for p in fitted), key=lambda f: f.deviance()).correlation()
-    return lambda p: score(p.candidate, base, correlation)
+    return lambda p: rival_score(p.candidate, base, correlation)

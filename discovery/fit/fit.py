@@ -43,6 +43,7 @@ class Fit:
     simulations: int
     fixed: dict[str, float] = field(default_factory=dict)
     only_instruments: bool | None = None  # whether what is left is theirs alone; None while nobody has asked
+    zeroed: Fit | None = field(default=None, repr=False)  # beside errors of the sensors' zeros; None likewise
 
     @property
     def point(self) -> dict[str, float]:

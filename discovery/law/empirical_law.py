@@ -24,9 +24,10 @@ from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit, fit, linearised
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.fit.zeros import beside_zeros
 from lacuna.discovery.law.law import Law, attach, component_of
 from lacuna.discovery.law.law_screen import Effort, Proposal, screened, sites
-from lacuna.discovery.naming.comparison import best_correlation, note_laws, score
+from lacuna.discovery.naming.comparison import best_correlation, note_laws, rival_score, score
 from lacuna.discovery.naming.race import ROUNDS, run_round, still_in
 from lacuna.discovery.naming.screen import Candidate
 
@@ -160,13 +161,13 @@ def simplified(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> P
         simpler.candidate = fitted_law(case, amendment, base, simpler.law, simpler.start, best.candidate.fit.point)
         shorter += [simpler] if simpler.candidate is not None else []
     correlation = best.candidate.fit.correlation()
-    chosen = min([best, *shorter], key=lambda p: score(p.candidate, base, correlation))
+    chosen = min([best, *shorter], key=lambda p: rival_score(p.candidate, base, correlation))
     return best if chosen is best else simplified(case, amendment, base, chosen)
 
 
 def _simpler(proposal: Proposal) -> list[Proposal]:
     """The law with one thing less that is not needed by its own standard error."""
-    law, fitted = proposal.law, proposal.candidate.fit
+    law, fitted = proposal.law, beside_zeros(proposal.candidate.fit)
     covariance = fitted.estimate.covariance(fitted.inflation())
     errors = {f.name: float(np.sqrt(max(covariance[k, k], 0.0))) for k, f in enumerate(fitted.estimate.free)}
     prefix, values = f"{component_of(law)}.", proposal.candidate.attachment.own_values(fitted.point)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.trace import left
 from lacuna.discovery.fit.evidence import nearly_noise
 from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.zeros import beside_zeros
 from lacuna.discovery.naming.left_out import left_out_residuals
 from lacuna.discovery.naming.screen import Candidate
 
@@ -61,7 +62,7 @@ def cross_validated(base: Fit, ranked: list[Ranked], correlation: dict[str, floa
     close = [r for r in ranked if r.score - best < reach][:CONTENDERS]
     if len({r.identity for r in close}) < 2 or ranked[0].score > -MIN_GAIN:
         return ranked
-    losses = [left_out_deviance(r.fit, base, correlation) for r in close]
+    losses = [left_out_deviance(_for_rivals(r.candidate, r.fit), base, correlation) for r in close]
     losses = [min(loss, *_of_richer(contender, close, losses)) for contender, loss in zip(close, losses, strict=True)]
     least = min(losses)
     for contender, loss in zip(close, losses, strict=True):
@@ -114,6 +115,30 @@ def score(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> flo
     """Deviance, less the base's, with the price of its parameters and of having been picked among many."""
     paid = candidate.fit.deviance(correlation) + price(len(candidate.free), base, correlation) + 2 * candidate.pick
     return paid - base.deviance(correlation)
+
+
+def rival_score(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> float:
+    """The score among rivals: beside errors of the sensors' zeros, which a law must not have stood for; errors of
+    sensors themselves are weighed as they are."""
+    if candidate.attachment.variable:
+        return score(candidate, base, correlation)
+    return score(replace(candidate, fit=beside_zeros(candidate.fit)), beside_zeros(base), correlation)
+
+
+def ranked_beside_zeros(ranked: list[Ranked], base: Fit, correlation: dict[str, float]) -> list[Ranked]:
+    """Best first: what is no error of a sensor, among itself as `rival_score` has it, the first of it with the best
+    score that one of them has."""
+    physical = [r for r in ranked if not r.attachment.variable]
+    if physical:
+        scores = [rival_score(r.candidate, base, correlation) for r in physical]
+        shift = min(r.score for r in physical) - min(scores)
+        for r, own in zip(physical, scores, strict=True):
+            r.score = own + shift
+    return sorted(ranked, key=lambda r: r.score)
+
+
+def _for_rivals(candidate: Candidate, found: Fit) -> Fit:
+    return found if candidate.attachment.variable else beside_zeros(found)
 
 
 def told_by_data(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> float:

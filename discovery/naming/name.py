@@ -28,6 +28,7 @@ from lacuna.discovery.naming.comparison import (
     confidences,
     cross_validated,
     note_losers,
+    ranked_beside_zeros,
     score,
 )
 from lacuna.discovery.naming.judge import Judgement
@@ -272,7 +273,7 @@ def _ranked(fitted: dict[str, Candidate], base: Fit) -> tuple[list[Ranked], dict
     """What was fitted, best first, and the samples of each signal that count as one."""
     correlation = best_correlation(list(fitted.values()))
     ranked = [Ranked(c, c.fit, score(c, base, correlation)) for c in fitted.values()]
-    return sorted(ranked, key=lambda r: r.score), correlation
+    return ranked_beside_zeros(ranked, base, correlation), correlation
 
 
 def _halve(

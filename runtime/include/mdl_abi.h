@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 24
+#define MDL_ABI_VERSION 25
 
 enum { MDL_FOLLOWS = 1, MDL_ARRIVAL = 2 }; /* bits of events_follow */
 
@@ -228,7 +228,8 @@ typedef struct mdl_descriptor {
   const int *equation_variables; /* rows of `variables` */
 
   /* Sizes of the unknowns [n_x + n_z], of the guards [n_rel] and of what is delayed [n_delay] for the present
-   * parameters, as far as the model tells; 0 where it does not. */
+   * parameters, as far as the model tells; 0 where it does not; negative where a state or unknown is that large at
+   * least. */
   int (*nominals)(mdl_data *m, double *nominal);
 
   /* value[2 k], value[2 k + 1]: numerator and divisor of division k, at a complete point; NAN where the division is in

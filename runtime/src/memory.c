@@ -39,7 +39,7 @@ static bool allocate_numbers(rt_session *s) {
   rt_branches *b = &s->branches;
   double **parameters[] = {&m->p, &s->p_run}, **inputs[] = {&m->u},
          **discrete[] = {&m->d, &m->pre_d, &s->d_swept, &s->d_before, &s->d_after};
-  double **unknowns[] = {&s->range, &s->outgrown, &s->atol, &s->y, &s->yp},
+  double **unknowns[] = {&s->range, &s->outgrown, &s->modest, &s->atol, &s->y, &s->yp},
          **samples[] = {&s->clock.first, &s->clock.interval};
   double **algebraic[] = {&m->v, &s->v_trial, &s->v_before,  &s->v_end,  &s->v_agreed,
                           &r->v, &b->v,       &b->v_reached, &b->v_tried},

@@ -55,6 +55,16 @@ static double mean_square(const rt_session *s, const rt_onestep *o, const double
   return n ? sum * (1. / n) : 0;
 }
 
+/* The same of what is left of the error where time is rounded: each stage is off by as much as time is, and what f
+ * changes over the step by its share. No shorter step has less of it. */
+static double beyond_rounding(const rt_session *s, rt_onestep *o) {
+  for (int i = 0; i < s->d->n_x; i++) {
+    double rounding = rt_time_resolution(s) * fabs(o->f1[i] - o->f0[i]);
+    o->error[i] = copysign(rt_max(0, fabs(o->error[i]) - rounding), o->error[i]);
+  }
+  return mean_square(s, o, o->error);
+}
+
 /* Loops, because a call of memcpy costs more than the few states that most models have. */
 static void load(const rt_session *s, rt_onestep *o) {
   for (int i = 0; i < s->d->n_x; i++) {
@@ -193,6 +203,7 @@ rt_status rt_onestep_step(rt_session *s, void *memory, double limit) {
     if (!status) status = rt_check_finite(s, o->f1);
     if (status < 0 || (status > 0 && !adaptive)) return rt_fail_model(s, s->t, "stepping");
     double square = status == 0 && adaptive ? mean_square(s, o, o->error) : 0;
+    if (status == 0 && square > 1) square = beyond_rounding(s, o);
     if (status == 0 && square <= 1 && adaptive) square = test_guards(s, o, h, square);
     if (status == 0 && square <= 1 && o->tangent) {
       status = rt_onestep_tangent_step(s, o, h, adaptive ? &square : NULL);

@@ -97,13 +97,14 @@ static int differentiate(rt_session *s, work *w, double h) {
   return 0;
 }
 
-/* Partial derivative of f with respect to time, by a forward difference well inside the step. */
+/* Partial derivative of f with respect to time, by a forward difference well inside the step, over what time as it is
+ * rounded has moved. */
 static int differentiate_time(rt_session *s, rt_onestep *o, work *w, double h) {
-  double delta = 1e-4 * h;
+  double t = o->t0 + rt_max(1e-4 * h, rt_min(h, rt_time_resolution(s))), delta = t - o->t0;
   memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
-  int status = rt_rhs(s, o->t0 + delta, o->x0, w->dfdt, s->v_trial);
+  int status = rt_rhs(s, t, o->x0, w->dfdt, s->v_trial);
   for (int i = 0; i < s->d->n_x; i++)
-    w->dfdt[i] = (w->dfdt[i] - o->f0[i]) / delta;
+    w->dfdt[i] = delta > 0 ? (w->dfdt[i] - o->f0[i]) / delta : 0;
   return status;
 }
 

@@ -3,8 +3,8 @@
  *
  * The model tells nominal values for the parameters of the run (codegen/structure/nominal.py has the rule); an unknown
  * is no smaller than at its start, and one that nothing is known of has size 1. The absolute tolerance of an unknown
- * follows the largest size that it has had, no further than its nominal value, and from a floor up that rounding does
- * not reach. */
+ * follows the largest size that it has had, no further than its nominal value, which is followed itself where the
+ * model only tells a least one, and from a floor up that rounding does not reach. */
 #include <math.h>
 #include <string.h>
 
@@ -31,6 +31,10 @@ rt_status rt_scale_parameters(rt_session *s) {
   }
   for (int r = 0; r < d->n_rel + d->n_delay; r++)
     if (!(s->g_nominal[r] > 0) || !isfinite(s->g_nominal[r])) s->g_nominal[r] = 0;
+  for (int i = 0; i < d->n_x + d->n_z; i++) {
+    s->modest[i] = i < d->n_x && s->nominal[i] < 0;
+    s->nominal[i] = fabs(s->nominal[i]);
+  }
   for (int i = 0; i < d->n_x + d->n_z; i++) /* until the start is known */
     s->atol[i] = s->options.atol * sized(s->nominal[i], 0);
   return RT_OK;
@@ -44,7 +48,8 @@ double rt_least_share(double tolerance) {
 static void set_tolerances(rt_session *s) {
   s->growing = false;
   for (int i = 0; i < s->d->n_x; i++) {
-    bool grows = s->range[i] < s->nominal[i];
+    if (s->modest[i] > 0) s->nominal[i] = rt_max(s->nominal[i], s->range[i]);
+    bool grows = s->range[i] < s->nominal[i] || s->modest[i] > 0;
     s->outgrown[i] = grows ? 2 * s->range[i] : INFINITY;
     s->growing |= grows;
   }

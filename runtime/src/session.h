@@ -107,7 +107,7 @@ struct rt_session {
   double *nominal;   /* [n_x + n_z + n_rel + n_delay] sizes, 0: not known */
   double *g_nominal, *delay_nominal;
   double *range;    /* [n_x + n_z] largest size so far, followed up to the nominal value */
-  double *outgrown; /* [n_x] size from which on range is to be followed again */
+  double *outgrown, *modest; /* [n_x] size from which on range is to be followed again; 1: as is the nominal value */
   bool growing;     /* some are */
   bool atol_given;  /* by the caller: it stays as it is */
   double *atol;     /* [n_x + n_z] */

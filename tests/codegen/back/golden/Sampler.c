@@ -221,7 +221,7 @@ static int mdl_check(mdl_data *m, double t, const double *x, const double *xdot,
 
 static int mdl_nominals(mdl_data *m, double *nominal) {
   (void)m;
-  nominal[0] = 0.2;
+  nominal[0] = -0.2;
   nominal[1] = 0.7;
   nominal[2] = 0.2;
   return 0;

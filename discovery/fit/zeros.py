@@ -1,0 +1,84 @@
+"""A fit beside errors of the sensors' zeros, to first order: without another simulation.
+
+A zero is set by a reading and errs by as much as one does. Over thousands of samples that is far more than hypotheses
+differ by: of two forms of one law the richer one, or one with a level, takes the zero of a sensor upon itself. So
+rivals are compared beside zeros, a parameter for each sensor with the noise of a sample for its belief. To first order
+they are one step of Gauss and Newton from the fit, and exact where the outputs are linear in the parameters.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.solver.free import Free, clipped, pulls
+
+
+def beside_zeros(found: Fit) -> Fit:
+    """The fit with a zero (units of its noise) of each output among its parameters; the same one where it has no
+    Jacobian."""
+    estimate = found.estimate
+    if not estimate.jacobian:
+        return found
+    if found.zeroed is None:
+        found.zeroed = _stepped(found)
+    return found.zeroed
+
+
+def _stepped(found: Fit) -> Fit:
+    estimate, columns = found.estimate, _columns(found)
+    belief = [(f.scale / f.sigma) ** 2 if f.sigma else 0.0 for f in estimate.free]
+    every = sum(j.T @ j for j in estimate.jacobian) + np.diag(belief)  # estimate.normal may be that of another point
+    inside = np.flatnonzero([not estimate.at_bound(f.name) for f in estimate.free])
+    normal = every[np.ix_(inside, inside)]
+    cross = sum(j[:, inside].T @ z for j, z in zip(estimate.jacobian, columns, strict=True))
+    own = sum(z.T @ z for z in columns) + np.eye(len(found.noise))
+    shift = np.linalg.lstsq(normal, cross, rcond=None)[0]  # of the parameters, by each zero
+    load = sum(z.T @ r for z, r in zip(columns, estimate.residuals, strict=True))
+    zeros = np.linalg.solve(own - cross.T @ shift, load)
+    values = estimate.values.copy()
+    values[inside] += np.array([estimate.free[k].scale for k in inside]) * (shift @ zeros)
+    moves = [j[:, inside] @ (shift @ zeros) - z @ zeros for j, z in zip(estimate.jacobian, columns, strict=True)]
+    residuals = [r + m for r, m in zip(estimate.residuals, moves, strict=True)]
+    free = [*estimate.free, *(Free(f"zero of {c}", 0.0, 1.0, sigma=1.0) for c in found.noise)]
+    values = np.append(clipped(estimate.free, values), zeros)
+    data_cost = float(sum(r @ r for r in residuals))
+    whole = np.zeros((len(estimate.free), len(zeros)))
+    whole[inside] = cross
+    stepped = replace(
+        estimate,
+        free=free,
+        values=values,
+        cost=data_cost + float(np.sum(pulls(free, values) ** 2)),
+        data_cost=data_cost,
+        residuals=residuals,
+        normal=np.block([[every, -whole], [-whole.T, own]]),
+        jacobian=[np.hstack([j, -z]) for j, z in zip(estimate.jacobian, columns, strict=True)],
+    )
+    return replace(found, estimate=stepped, residuals=_moved(found, moves), zeroed=None)
+
+
+def _columns(found: Fit) -> list[np.ndarray]:
+    """What the weighted residual (n, outputs) of each recording falls by with each zero."""
+    result = []
+    for part, weights in zip(found.estimate.residuals, found.weights.values(), strict=True):
+        own = np.zeros((len(part), len(found.noise)))
+        for k, column in enumerate(found.noise):
+            weight = weights[column]
+            own[k * len(weight) : (k + 1) * len(weight), k] = weight / found.level[column]
+        result.append(own)
+    return result
+
+
+def _moved(found: Fit, moves: list[np.ndarray]) -> dict[str, dict[str, np.ndarray]]:
+    """The residuals in SI, moved as the weighted ones are."""
+    result = {}
+    for (name, residuals), move in zip(found.residuals.items(), moves, strict=True):
+        result[name] = {}
+        for k, (column, noise) in enumerate(found.noise.items()):
+            own, weight = residuals[column], found.weights[name][column] / (noise.std * found.level[column])
+            change = move[k * len(own) : (k + 1) * len(own)]
+            result[name][column] = own + np.divide(change, weight, out=np.zeros_like(own), where=weight > 0)
+    return result
