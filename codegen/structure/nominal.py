@@ -8,8 +8,9 @@ In this order, for each continuous variable:
    Parameters have the size of their values, sin and cos 1, and first of all what stands in them has. Of several
    balances the smallest counts. What is found serves in the next round. Where a round finds nothing, sums inside
    products are looked at, then numbers that stand as terms (a threshold of 1e-6 says less than a parameter, but more
-   than nothing: the size at least, which a run may show to be larger). A relation with a limit makes a size smaller than the equations alone do, never larger. A limit in min
-   and max, or in a branch that its condition compares with, counts only beside other limits;
+   than nothing: the size at least, which a run may show to be larger). A relation with a limit makes a size smaller
+   than the equations alone do, never larger. A limit in min and max, or in a branch that its condition compares with,
+   counts only beside other limits;
 3. then the length of the experiment links a variable and its derivative;
 4. an angle (unit rad) without a declared nominal has size 1, at which it acts, however many turns it makes and however
    small a play is that it is compared with;
