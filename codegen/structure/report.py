@@ -95,7 +95,8 @@ def _nominals(prepared: Prepared) -> list[str]:
 def _size(size: Size | None, unknown: str) -> str:
     if size is None:
         return f"= {unknown}"
-    return f"{'>=' if size.at_least else '='} {size.value:.6g}  // {to_text(size.expression)}{', ' if size.reason else ''}{size.reason}"
+    sign = ">=" if size.at_least else "="
+    return f"{sign} {size.value:.6g}  // {to_text(size.expression)}{', ' if size.reason else ''}{size.reason}"
 
 
 def _event(step: object) -> str:
