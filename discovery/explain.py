@@ -18,7 +18,7 @@ from lacuna.discovery.explanation.explanation import Clock, Explanation
 from lacuna.discovery.explanation.verdict import conclude
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.fit.time_limit import within
+from lacuna.discovery.fit.solver.time_limit import within
 from lacuna.discovery.naming.judge import judge_file
 from lacuna.discovery.steps import add_effort, add_findings, add_fit, add_location, add_scatter, opened
 from lacuna.written import write_whole

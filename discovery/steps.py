@@ -26,7 +26,7 @@ from lacuna.discovery.fit.fit import believed, carried, falling_bandwidths, line
 from lacuna.discovery.fit.lead import ROUGH, Lead, fit_believed
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import noise_of
-from lacuna.discovery.fit.time_limit import TimeUp
+from lacuna.discovery.fit.solver.time_limit import TimeUp
 from lacuna.discovery.fit.tracking import trackable
 from lacuna.discovery.law.beyond import explain_beyond
 from lacuna.discovery.law.locate import effort_at, locate, place_of

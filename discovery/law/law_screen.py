@@ -11,7 +11,7 @@ from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.attachment import values_of
 from lacuna.discovery.catalogue.places import Device, Line, Shaft
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.fit.time_limit import check
+from lacuna.discovery.fit.solver.time_limit import check
 from lacuna.discovery.law.law import Law, Site, component_of
 from lacuna.discovery.law.law_terms import Group, Variable, groups
 from lacuna.discovery.law.response import linear, respond

@@ -13,7 +13,7 @@ import numpy as np
 
 from lacuna.discovery.fit.fit import Fit, carried, fit
 from lacuna.discovery.fit.solver.free import pulls
-from lacuna.discovery.fit.time_limit import TimeUp
+from lacuna.discovery.fit.solver.time_limit import TimeUp
 from lacuna.discovery.naming.screen import Screen
 
 PROBES = 4  # directions in which the cost is compared with its quadratic form

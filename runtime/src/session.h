@@ -106,12 +106,12 @@ struct rt_session {
   double input_time; /* where data.u was last computed */
   double *nominal;   /* [n_x + n_z + n_rel + n_delay] sizes, 0: not known */
   double *g_nominal, *delay_nominal;
-  double *range;    /* [n_x + n_z] largest size so far, followed up to the nominal value */
+  double *range;             /* [n_x + n_z] largest size so far, followed up to the nominal value */
   double *outgrown, *modest; /* [n_x] size from which on range is to be followed again; 1: as is the nominal value */
-  bool growing;     /* some are */
-  bool atol_given;  /* by the caller: it stays as it is */
-  double *atol;     /* [n_x + n_z] */
-  double *y, *yp;   /* [n_x + n_z] scratch for the residual form */
+  bool growing;              /* some are */
+  bool atol_given;           /* by the caller: it stays as it is */
+  double *atol;              /* [n_x + n_z] */
+  double *y, *yp;            /* [n_x + n_z] scratch for the residual form */
 
   double start, stop;
   double t_previous, t;             /* what is being looked at of the last step; data belongs to t */

@@ -10,7 +10,7 @@ import pytest
 
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.fit.solver.least_squares import Problem, solve
-from lacuna.discovery.fit.time_limit import TimeUp
+from lacuna.discovery.fit.solver.time_limit import TimeUp
 from lacuna.discovery.naming import dips, screen
 
 FREE = [Free("x", 1.0, 1.0, step=1e-3)]

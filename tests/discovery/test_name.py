@@ -17,7 +17,7 @@ from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.fit.fit import Fit, fit
 from lacuna.discovery.fit.lead import fit_believed
 from lacuna.discovery.fit.machine import Machine
-from lacuna.discovery.fit.time_limit import TimeUp, check, within
+from lacuna.discovery.fit.solver.time_limit import TimeUp, check, within
 from lacuna.discovery.naming import name as naming
 from lacuna.discovery.naming import restarts
 from lacuna.discovery.naming.name import Naming, compete

@@ -20,7 +20,7 @@ from lacuna.discovery.explain import explain
 from lacuna.discovery.fit.fit import Fit, fit
 from lacuna.discovery.fit.lead import Lead, fit_believed
 from lacuna.discovery.fit.machine import Machine
-from lacuna.discovery.fit.time_limit import TimeUp
+from lacuna.discovery.fit.solver.time_limit import TimeUp
 from lacuna.discovery.naming import search as searching
 from lacuna.discovery.naming.comparison import Ranked
 from lacuna.discovery.naming.judge import judge, noise_floor

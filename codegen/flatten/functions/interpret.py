@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
-from math import prod
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
@@ -16,24 +15,21 @@ from lacuna.codegen.flatten.expressions.choices import merged_value
 from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.lower import lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.functions.effort import MAX_NESTED_STEPS, nested_call, one_more_step
-from lacuna.codegen.flatten.functions.fitting import SizeVaries, blank, conform, fit, result_of, unknown_target
+from lacuna.codegen.flatten.functions.fitting import SizeVaries, blank, fit, result_of, unknown_target
 from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
-from lacuna.codegen.flatten.functions.locals import Local, Signature, signature_of
+from lacuna.codegen.flatten.functions.locals import Local, Signature
+from lacuna.codegen.flatten.functions.parts import Target
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import (
-    Array,
     Record,
     Value,
     integers,
     is_open,
-    items_of,
     scalars,
     shape_of,
-    shape_text,
 )
 from lacuna.codegen.flatten.references.iterators import iterate
-from lacuna.codegen.flatten.references.references import apply_subscripts
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr
 from lacuna.codegen.syntax import ast
@@ -249,45 +245,11 @@ class _Run:
             raise unknown_target(target, self.locals)
         if name in self.inputs:
             raise Diagnostic("R058", f"the input {name} is assigned", span, "copy it to a variable first")
-        self.locals[name] = self._updated(self.locals[name], target, 0, value, span, self.kinds.get(name))
+        part = Target(target, self.scope, span, self.flexible)
+        self.locals[name] = part.updated(self.locals[name], value, self.kinds.get(name))
         self.name(name, span)
 
     def name(self, variable: str, span: Span) -> None:
         """Have what stands for its value in place of it, where the variable declares a unit."""
         if variable in self.named:
             self.locals[variable] = self.named[variable](self.locals[variable], span)
-
-    def _updated(self, old: Value, target: ast.Ref, at: int, value: Value, span: Span, kind: str | None) -> Value:
-        """`old`, of the type `kind`, with the part that `target` names, from name number `at` on, as `value`."""
-        subscripts, last = target.subscripts[at], at + 1 == len(target.names)
-        if subscripts is None:
-            if not last:
-                return self._field_updated(old, target, at + 1, value, span)
-            if target.names[at] in self.flexible and len(shape_of(old)) == len(shape_of(value)):
-                self.scope.context.spend(len(scalars(value)), span)
-                return value
-            return conform(old, value, span, str(target), kind)
-        numbers = Array(shape_of(old), integers(list(range(prod(shape_of(old))))).items)
-        picked = apply_subscripts(numbers, subscripts, self.scope, target)
-        if any(p.op != "const" for p in scalars(picked)):
-            raise AtRunTime("an index", span)
-        if not last and not isinstance(picked, Expr):
-            raise Diagnostic("R042", f"{target}: elements of several records", span, "assign them one by one")
-        if not last:
-            new = self._field_updated(old.items[picked.value], target, at + 1, value, span)
-            return Array(old.shape, (*old.items[: picked.value], new, *old.items[picked.value + 1 :]))
-        if shape_of(picked) != shape_of(value):
-            message = f"{shape_text(shape_of(picked))} := {shape_text(shape_of(value))}"
-            raise Diagnostic("R042", f"the sides differ in size: {message}", span, "both need the same size")
-        items = list(old.items)
-        for position, new in zip(items_of(picked), items_of(value), strict=True):
-            items[position.value] = conform(old.items[position.value], new, span, str(target), kind)
-        return Array(old.shape, tuple(items))
-
-    def _field_updated(self, old: Value, target: ast.Ref, at: int, value: Value, span: Span) -> Record:
-        name = target.names[at]
-        if not isinstance(old, Record) or name not in old.fields:
-            raise Diagnostic("R003", f"{target} has no such element", target.span, "only records have elements")
-        kinds = {local.name: local.type.primitive for local in signature_of(old.cls, self.scope.context).locals}
-        changed = self._updated(old.fields[name], target, at, value, span, kinds[name])
-        return Record(old.name, old.fields | {name: changed}, old.cls)

@@ -75,11 +75,18 @@ def _refuse_beyond_outer(node: Node, ref: ast.Ref, scope: Scope) -> None:
 
 def read_local(ref: ast.Ref, scope: Scope) -> Value:
     """What a name means that starts with a loop variable, or with a variable of a function."""
-    value = scope.locals[ref.names[0]]
-    value = apply_subscripts(value, ref.subscripts[0], scope, ref)
-    for name, subscripts in zip(ref.names[1:], ref.subscripts[1:], strict=True):
-        value = apply_subscripts(_element_of(value, name, ref), subscripts, scope, ref)
-    return value
+    return _further(apply_subscripts(scope.locals[ref.names[0]], ref.subscripts[0], scope, ref), ref, 1, scope)
+
+
+def _further(value: Value, ref: ast.Ref, at: int, scope: Scope) -> Value:
+    """From `value` along the names from number `at` on, of an array of records in each of them (10.6.9)."""
+    if at == len(ref.names):
+        return value
+    if isinstance(value, Array) and value.items and holds_records(value):
+        stacked = stack([_further(record, ref, at, scope) for record in value.items], ref.span)
+        return Array(value.shape + stacked.shape[1:], stacked.items)
+    element = _element_of(value, ref.names[at], ref)
+    return _further(apply_subscripts(element, ref.subscripts[at], scope, ref), ref, at + 1, scope)
 
 
 def read_part(e: ast.Part, scope: Scope) -> Value:

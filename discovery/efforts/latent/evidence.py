@@ -10,7 +10,7 @@ import numpy as np
 
 from lacuna.analysis.spectra.library import library, pointer
 from lacuna.discovery.efforts.latent.chains import Latent, Piece
-from lacuna.discovery.fit import time_limit
+from lacuna.discovery.fit.solver import time_limit
 
 
 @dataclass

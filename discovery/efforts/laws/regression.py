@@ -16,7 +16,7 @@ import numpy as np
 from lacuna.discovery.efforts.guide import Guided
 from lacuna.discovery.efforts.latent.chains import Piece
 from lacuna.discovery.efforts.laws.metric import Bases, Metric, least_squares
-from lacuna.discovery.fit import time_limit
+from lacuna.discovery.fit.solver import time_limit
 from lacuna.discovery.law.law import Law, Site
 from lacuna.discovery.law.law_terms import Group
 

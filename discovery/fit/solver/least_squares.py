@@ -19,7 +19,7 @@ import os
 import numpy as np
 from scipy.optimize import lsq_linear
 
-from lacuna.discovery.fit import time_limit
+from lacuna.discovery.fit.solver import time_limit
 from lacuna.discovery.fit.solver.free import Free, clipped, pulls
 from lacuna.discovery.fit.solver.step import Evaluation, downhill
 
