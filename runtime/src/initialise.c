@@ -87,7 +87,7 @@ static bool sets_discrete_first(rt_session *s) {
   const size_t d_size = (size_t)s->d->n_d * sizeof *m->d;
   mdl_failure failure = m->failure;
   memcpy(s->d_swept, m->d, d_size);
-  memcpy(s->when_before, m->when, (size_t)s->d->n_when);
+  memcpy(m->when, s->when_before, (size_t)s->d->n_when);
   memcpy(s->x_swept, m->x, (size_t)s->d->n_x * sizeof *m->x);
   bool moved = !s->d->event(m, s->t, s->x_swept, m->xdot, m->v) && memcmp(m->d, s->d_swept, d_size);
   memcpy(m->when, s->when_before, (size_t)s->d->n_when);
@@ -179,14 +179,16 @@ static void begin_relations(rt_session *s) {
   m->failure = (mdl_failure){.equation = -1, .variable = -1};
 }
 
-/* Initial equations, relations and discrete equations with initial() true, until they agree. States given by the caller
- * are what others follow from; they replace what initial equations say of them. */
+/* Initial equations, relations and discrete equations with initial() true, until they agree; pre(d) stays the start
+ * value, which the first event leaves (8.6). States given by the caller are what others follow from; they replace what
+ * initial equations say of them. */
 static rt_status solve_initial_equations(rt_session *s) {
   mdl_data *m = &s->data;
   const size_t x_size = (size_t)s->d->n_x * sizeof *m->x;
   char names[400] = "";
   give_states(s);
   memcpy(s->x_start, m->x, x_size);
+  memcpy(s->when_before, m->when, (size_t)s->d->n_when);
   begin_relations(s);
   for (int i = 0; i < MAX_ITERATIONS; i++) {
     memcpy(m->x, s->x_start, x_size);
@@ -208,14 +210,14 @@ static rt_status solve_initial_equations(rt_session *s) {
     }
     if (rt_tangent_initial(s, false)) return s->failure.status;
     bool changed = settle_relations(s, i >= MAX_ITERATIONS / 2);
-    memcpy(s->when_before, m->when, (size_t)s->d->n_when);
+    memcpy(m->when, s->when_before, (size_t)s->d->n_when);
     memcpy(s->x_swept, m->x, (size_t)s->d->n_x * sizeof *m->x);
+    memcpy(s->d_swept, m->d, (size_t)s->d->n_d * sizeof *m->d);
     m->unsettled = 0;
     if (s->d->event(m, s->t, m->x, m->xdot, m->v) || rt_check_settled(s, m->unsettled)) return fail_initialisation(s);
     if (rt_tangent_initial_event(s)) return s->failure.status;
-    changed |= memcmp(m->d, m->pre_d, (size_t)s->d->n_d * sizeof *m->d) != 0;
+    changed |= memcmp(m->d, s->d_swept, (size_t)s->d->n_d * sizeof *m->d) != 0;
     if (i >= MAX_ITERATIONS - WATCHED_ITERATIONS) rt_append_changed(s, names, sizeof names);
-    memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
     if (!changed) return RT_OK;
   }
   return rt_fail(s, RT_INITIALISATION, s->t, -1, NULL,

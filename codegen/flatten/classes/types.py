@@ -11,8 +11,9 @@ from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier, for_each, from_tree, merge
 from lacuna.codegen.flatten.names.scope import PRIMITIVES, Scope, base_class, find_class
 from lacuna.codegen.flatten.names.unknown import unknown_class
-from lacuna.codegen.flatten.names.views import constraints_of
+from lacuna.codegen.flatten.names.views import constraints_of, view
 from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.references import references
 
 EXTERNAL = "ExternalObject"
 ATTRIBUTES = {
@@ -50,7 +51,27 @@ def resolve_type(reference: ast.Ref, scope: Scope, depth: int = 0) -> Type:
     cls = find_class(library, scope.cls, reference, of_base=depth > 0)
     if cls is None:
         raise unknown_class(library, scope.cls, reference, "type or class")
-    return type_of(cls, scope.context, depth)
+    return type_of(_standing_in(cls, scope), scope.context, depth)
+
+
+def _standing_in(cls: ast.Class, scope: Scope) -> ast.Class:
+    """A short definition in the class of the component around, whose modifications name its elements: they are looked
+    up there, as if they were written outside (4.5.1)."""
+    around, alias = scope.instance, cls.alias
+    if around is None or alias is None or cls.written is not None or cls.parent is None:
+        return cls
+    if not any((c.origin or c) is (cls.parent.origin or cls.parent) for c in around.classes):
+        return cls
+    used = {r.names[0] for r in references([alias.modification, *alias.dimensions]) if not r.absolute}
+    if used.isdisjoint(around.elements):
+        return cls
+    library, key = scope.context.library, (id(around), id(cls), "standing in")
+    found = library.views.get(key)
+    if found is None:
+        written = Scope(scope.context, cls.parent, around)
+        found = library.views[key] = view(library, cls, cls.parent, whole=cls.whole, written=written)
+        library.kept += [around, cls]
+    return found
 
 
 def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:

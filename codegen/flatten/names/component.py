@@ -6,7 +6,7 @@ values found through them, so that none of those passes depends on the instance 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 from lacuna.codegen.errors import Span
@@ -34,6 +34,7 @@ class Component(Protocol):
     stream: bool
     open_ended: bool  # itself or part of an expandable connector
     elements: Mapping[str, object]  # by name: what it declares and inherits
+    classes: Sequence[ast.Class]  # its own and those it inherits
 
     def sees(self, name: str, cls: ast.Class) -> bool:
         """May what is written in `cls`, itself or a base of it, use the element `name`?"""

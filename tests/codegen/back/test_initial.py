@@ -104,9 +104,9 @@ UNFIT = {
         "a block of nonlinear equations did not converge; in: der(x) = x^2 + 1",
     ),
     "never settles": (
-        "Integer count;\n  Real x(start=0, fixed=true);\ninitial equation\n  count = pre(count) + 1;\nequation\n"
-        "  der(x) = 1;\n  when x > 1 then\n    count = pre(count) + 1;\n  end when;",
-        "do not settle at time 0 s; these keep changing: count",
+        "Boolean on; Real y;\n  Real x(start=0, fixed=true);\nequation\n"
+        "  der(x) = 1;\n  y = if on then -1 - x else 1 + x;\n  on = y > 0;",
+        "do not settle at time 0 s; these keep changing: on",
     ),
 }
 
