@@ -8,6 +8,7 @@ from dataclasses import replace
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.equations.equations import Collected, check_target, check_types, origin_of, pairs, unroll
+from lacuna.codegen.flatten.equations.independent import independent_parts
 from lacuna.codegen.flatten.equations.mixed import lasting_targets, split_by_time
 from lacuna.codegen.flatten.equations.symbolic_run import SymbolicRun
 from lacuna.codegen.flatten.equations.when import procedure, when_conditions
@@ -24,12 +25,21 @@ from lacuna.codegen.syntax import ast
 
 
 def flatten_algorithm(section: ast.Section, scope: Scope, out: Collected) -> None:
-    """Add what an algorithm section computes, as an Algorithm or as equations."""
-    context = scope.context
+    """Add what an algorithm section computes, as Algorithms or as equations."""
     _refuse_inner_whens(section.items)
     statements = _statements(section.items, scope, in_when=False)
-    names = assigned(statements)
-    if any(isinstance(s, flat.When) for s in _nested(statements)):
+    parts = independent_parts(statements, scope.context) if _has_when(statements) else [statements]
+    for part in parts:
+        _flatten_part(part, section, scope, out)
+
+
+def _has_when(statements: list[flat.Statement]) -> bool:
+    return any(isinstance(s, flat.When) for s in _nested(statements))
+
+
+def _flatten_part(statements: list[flat.Statement], section: ast.Section, scope: Scope, out: Collected) -> None:
+    context, names = scope.context, assigned(statements)
+    if _has_when(statements):
         lasting = lasting_targets(statements, context)
         targets = _with_whole_arrays([n for n in names if n in lasting], context)
         run = SymbolicRun(scope, targets)

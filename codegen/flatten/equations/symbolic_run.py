@@ -25,8 +25,7 @@ class SymbolicRun:
         self.asserts: list[flat.Assert] = []
 
     def read(self, e: Expr) -> Expr:
-        mapping = {ex.var(name, self.types[name]): value for name, value in self.values.items()}
-        return ex.substitute(e, mapping)
+        return _present(e, {ex.var(name, self.types[name]): value for name, value in self.values.items()})
 
     def block(self, statements: list[flat.Statement], guard: Expr) -> Expr:
         """Run statements; the condition under which a `break` ended them. What follows it runs where it did not."""
@@ -61,7 +60,7 @@ class SymbolicRun:
         }
         if not names:
             return self.read(e)
-        return ex.substitute(self.read(e), {ex.var(n, self.type_of(n)): self.unassigned(n) for n in names})
+        return _present(self.read(e), {ex.var(n, self.type_of(n)): self.unassigned(n) for n in names})
 
     def _while(self, s: flat.While, guard: Expr) -> None:
         for _ in range(MAX_ROUNDS):
@@ -108,12 +107,9 @@ class SymbolicRun:
     def result(self, target: str) -> Expr:
         """The value after the section; what still names a target means its value before the section."""
 
-        def before(n: Expr) -> Expr | None:
-            if n.op == "var" and n.value in self.targets:
-                return self.unassigned(str(n.value))
-            return n if n.op in ("der", "pre") else None
-
-        return ex.transform(self.values[target], before, {})
+        value = self.values[target]
+        names = {str(n.value) for n in ex.walk(value) if n.op == "var" and n.value in self.targets}
+        return _present(value, {ex.var(n, self.type_of(n)): self.unassigned(n) for n in names})
 
     def _if(self, s: flat.If, guard: Expr) -> Expr:
         before = dict(self.values)
@@ -152,3 +148,8 @@ class SymbolicRun:
 def _without_no_event(e: Expr) -> Expr:
     """A condition decided at translation makes no event, marked or not."""
     return e.args[0] if e.op == "noEvent" and e.args[0].op == "const" else e
+
+
+def _present(e: Expr, values: dict[Expr, Expr]) -> Expr:
+    """`e` with present values of variables; derivatives and values before the event are of the variables themselves."""
+    return ex.transform(e, lambda n: n if n.op in ("der", "pre") else values.get(n), {})

@@ -1,5 +1,5 @@
 // section: 11.1
-// refuse: R059 10
+// value: x = 1, n = 2, y at 0.4 = 0, y = 3
 model ReadBetweenAssignments
   Real x;
   Real y;
