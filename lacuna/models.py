@@ -189,6 +189,8 @@ class Model:
     def _refuse_input(self, name: str) -> None:
         if name in self.inputs:
             raise UserError(f"{name} is an input of {self.name}, not a parameter: drive it by inputs, or -u {name}=...")
+        if name in self.variables and self.variables[name].kind != "parameter":
+            raise UserError(f"{name} of {self.name} is not to be set: equations give its value")
 
     def simulate(
         self,

@@ -65,7 +65,7 @@ def flatten(
     context = Context(library, Path(cls.span.file).resolve().parent, LOWERING, cls.path)
     top = Instance(context, cls, "", None, _outside_modifier(modifications or {}, cls.span))
     imbalance = "warning" if units == "warn" else "error"
-    leaves, sections, buses = _instantiate(top, imbalance)
+    leaves, sections, buses = _instantiate(top, imbalance, modifications or {})
     context.finish()
     model = flat.FlatModel(cls.path, cls.span, cls.description)
     _flatten_variables(leaves, model, context)
@@ -95,6 +95,15 @@ def flatten(
     context.finish()
     _look_beside(model, top)
     return model
+
+
+def _refuse_constants(leaves: Iterable[Leaf], modifications: Iterable[str]) -> None:
+    """Raises R031: what is declared constant is fixed by the model (4.5)."""
+    wanted = set(modifications)
+    for leaf in leaves:
+        if leaf.variability == "constant" and not wanted.isdisjoint(leaf.names):
+            hint = "declare it as a parameter, or modify it in a model"
+            raise Diagnostic("R031", f"{leaf.name} is a constant, no parameter to be set", leaf.span, hint)
 
 
 def _check_events(
@@ -166,10 +175,11 @@ def _number(value: float | int | bool) -> Expr:
 
 
 def _instantiate(
-    top: Instance, imbalance: str
+    top: Instance, imbalance: str, modifications: Iterable[str]
 ) -> tuple[list[Leaf], list[tuple[ast.Section, ast.Class, Instance]], list[Instance]]:
     """Every variable and every section below `top`, in order of declaration, and the expandable connectors: what they
-    hold follows from the connections. Connectors that are not balanced are of that severity."""
+    hold follows from the connections. Connectors that are not balanced are of that severity; constants among what is
+    modified from outside are refused."""
     buses: list[Instance] = []
     leaves: list[Leaf] = []
     sections: list[tuple[ast.Section, ast.Class, Instance]] = []
@@ -205,6 +215,7 @@ def _instantiate(
         look_at(top, implicit)
     bind_texts(sections)
     top.context.table(Structure).sections = sections
+    _refuse_constants(leaves, modifications)
     return leaves, sections, buses
 
 

@@ -127,6 +127,31 @@ def test_a_parameter_takes_values_of_its_type_only(tmp_path: Path, kind: str, va
 
 
 @pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ("c=1", "c is a constant, no parameter to be set"),
+        ("found=9", "found of M is not to be set: equations give its value"),
+        ("y=3", "y of M is not to be set: equations give its value"),
+        ("held=2", "is final"),
+    ],
+)
+def test_what_the_model_fixes_is_not_set(tmp_path: Path, given: str, told: str) -> None:
+    text = """model M
+  constant Real c = 4;
+  parameter Real found(fixed = false, start = 2);
+  final parameter Real held = 3;
+  Real y = c*time;
+initial equation
+  found^2 = held;
+end M;
+"""
+    status, said = simulated(tmp_path, text, "-p", given)
+    assert status == 1
+    assert told in said
+    assert simulated(tmp_path, text)[0] == 0
+
+
+@pytest.mark.parametrize(
     ("kind", "given", "said"),
     [
         ("Integer", "1.5", "whole numbers"),
