@@ -51,7 +51,7 @@ class Leaf:
             self.names = (name,)
         self._binding: Value | None = None
         self._bound = self._lowering = False
-        self._check_attributes()
+        check_attributes(self.primitive, name, modifier)
         for position, scalar in enumerate(self.names):
             context.scalars[scalar] = (self, position)
 
@@ -62,16 +62,6 @@ class Leaf:
         if self.primitive != "Real" and not any(given):
             return "discrete"
         return min(given, key=order.index) or "continuous"
-
-    def _check_attributes(self) -> None:
-        for name, child in self.modifier.children.items():
-            if name not in ATTRIBUTES[self.primitive]:
-                hint = did_you_mean(name, ATTRIBUTES[self.primitive], "see the attributes in docs/language.md")
-                raise Diagnostic("R035", f"{self.primitive} has no attribute {name}", child.span, hint)
-            inner = next(iter(child.children), None)
-            if inner is not None:
-                message = f"{name} of {self.name} is a value and has no {inner}"
-                raise Diagnostic("R035", message, child.span, f"{inner} is an attribute of the variable")
 
     @property
     def is_structural(self) -> bool:
@@ -196,3 +186,15 @@ class Leaf:
 
     def element(self, value: Value | None, position: int) -> Expr | str | None:
         return value.items[position] if isinstance(value, Array) else value
+
+
+def check_attributes(primitive: str, variable: str, modifier: Modifier) -> None:
+    """Raises R035 for what is said of a variable of a primitive type and is no attribute of it."""
+    for name, child in modifier.children.items():
+        if name not in ATTRIBUTES[primitive]:
+            hint = did_you_mean(name, ATTRIBUTES[primitive], "see the attributes in docs/language.md")
+            raise Diagnostic("R035", f"{primitive} has no attribute {name}", child.span, hint)
+        inner = next(iter(child.children), None)
+        if inner is not None:
+            message = f"{name} of {variable} is a value and has no {inner}"
+            raise Diagnostic("R035", message, child.span, f"{inner} is an attribute of the variable")

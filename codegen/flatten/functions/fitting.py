@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from math import prod
 
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.classes.types import EXTERNAL
+from lacuna.codegen.flatten.classes.types import EXTERNAL, Type
 from lacuna.codegen.flatten.expressions.constants import evaluate, is_known
 from lacuna.codegen.flatten.expressions.enumerations import enumeration_of
 from lacuna.codegen.flatten.expressions.evaluate import evaluate_dimensions
@@ -47,30 +48,30 @@ def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:
         each = f"for each element: {{f({local.name}) for {local.name} in array}}"
         raise Diagnostic("R062", message, span, "both need the same size" if sizes else each)
     items = [typed(item, local.type.primitive, local.name, span) for item in scalars(value)]
-    _require_enumeration(local, scalars(value), scope, span)
+    require_enumeration(local.name, local.type, scalars(value), scope.context, span)
     return Array(sizes, tuple(items)) if isinstance(value, Array) else items[0]
 
 
-def _require_enumeration(local: Local, items: list[Expr | str], scope: Scope, span: Span) -> None:
-    """Raises R025 for a value of one enumeration where a number or another is declared."""
-    cls = local.type.cls
-    wanted = (cls.origin or cls).path if local.type.literals and cls is not None else ""
+def require_enumeration(name: str, kind: Type, items: Iterable[Expr | str], context: Context, span: Span) -> None:
+    """Raises R025 for a value of one enumeration where a number or another is declared, or the reverse (4.9.5)."""
+    wanted = (kind.cls.origin or kind.cls).path if kind.literals and kind.cls is not None else ""
     for item in items:
-        found = enumeration_of(item, scope.context) if isinstance(item, Expr) else ""
-        if found and found != wanted:
-            names = [name.rsplit(".", 1)[-1] or local.type.primitive for name in (wanted, found)]
+        found = enumeration_of(item, context) if isinstance(item, Expr) and item.type == INTEGER else ""
+        if found is not None and found != wanted and not (isinstance(item, Expr) and item.op == "unset"):
+            names = [told.rsplit(".", 1)[-1] or kind.primitive for told in (wanted, found)]
             hint = f"give a {names[0]}; Integer(e) is the number of a literal"
-            raise Diagnostic("R025", f"{local.name} is {names[0]}, given {names[1]}", span, hint)
+            raise Diagnostic("R025", f"{name} is {names[0]}, given {names[1]}", span, hint)
 
 
-def conform(old: Value, value: Value, span: Span, name: str, kind: str | None) -> Value:
-    """`value` for a variable of type `kind` (None: a record) that held `old`: the same size, and a type that fits."""
+def conform(old: Value, value: Value, span: Span, name: str, kind: Type, context: Context) -> Value:
+    """`value` for a variable of a type that held `old`: the same size, and a type that fits."""
     if shape_of(old) != shape_of(value) or holds_records(old) != holds_records(value):
         message = f"{name} has size {shape_text(shape_of(old))}, given {shape_text(shape_of(value))}"
         raise Diagnostic("R042", message, span, "both need the same size")
-    if kind is None or holds_records(old):
+    if kind.primitive is None or holds_records(old):
         return value
-    items = [typed(item, kind, name, span) for item in scalars(value)]
+    items = [typed(item, kind.primitive, name, span) for item in scalars(value)]
+    require_enumeration(name, kind, items, context, span)
     return Array(old.shape, tuple(items)) if isinstance(old, Array) else items[0]
 
 

@@ -9,6 +9,7 @@ from functools import partial
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.instance import package_of
+from lacuna.codegen.flatten.classes.types import Type
 from lacuna.codegen.flatten.equations.asserts import lower_assert
 from lacuna.codegen.flatten.equations.effects import effect
 from lacuna.codegen.flatten.expressions.choices import merged_value
@@ -20,7 +21,6 @@ from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
 from lacuna.codegen.flatten.functions.locals import Local, Signature
 from lacuna.codegen.flatten.functions.parts import Target
 from lacuna.codegen.flatten.names.context import Context
-from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import (
     Record,
     Value,
@@ -52,7 +52,7 @@ def interpret(
     run = _Run(signature, context, dict(arguments), span)
     run.named = {local.name: partial(named, local) for local in signature.locals if named is not None and local.unit}
     run.inputs, run.once = frozenset(arguments), once
-    run.kinds = {local.name: local.type.primitive for local in signature.locals}
+    run.kinds = {local.name: local.type for local in signature.locals}
     for local in signature.in_order:
         if local.declaration.causality == "input":
             continue
@@ -90,12 +90,11 @@ def _named_constant(local: Local, cls: ast.Class, value: Value, context: Context
 
 class _Run:
     def __init__(self, signature: Signature, context: Context, values: dict[str, Value], span: Span) -> None:
-        pure = not signature.cls.impure
-        self.scope = Scope(context, signature.written_in, None, values, in_function=True, pure=pure)
+        self.scope = signature.scope_of(values, context)
         self.locals = values
         self.span = span
         self.inputs: frozenset[str] = frozenset()
-        self.kinds: dict[str, str | None] = {}  # what is declared: a Real may hold the text of an Integer
+        self.kinds: dict[str, Type] = {}  # what is declared: a Real may hold the text of an Integer
         self.named: dict[str, Callable[[Value, Span], Value]] = {}
         self.flexible: set[str] = set()  # arrays declared with `:`, which take the size of what is assigned (12.4.5)
         self.once = False
@@ -246,7 +245,7 @@ class _Run:
         if name in self.inputs:
             raise Diagnostic("R058", f"the input {name} is assigned", span, "copy it to a variable first")
         part = Target(target, self.scope, span, self.flexible)
-        self.locals[name] = part.updated(self.locals[name], value, self.kinds.get(name))
+        self.locals[name] = part.updated(self.locals[name], value, self.kinds[name])
         self.name(name, span)
 
     def name(self, variable: str, span: Span) -> None:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.classes.function_restrictions import check_function, check_targets
 from lacuna.codegen.flatten.classes.inheritance import inheriting, refuse_redeclaration
 from lacuna.codegen.flatten.classes.instance import Instance
 from lacuna.codegen.flatten.classes.types import Type, causality_of, resolve_type
+from lacuna.codegen.flatten.expressions.enumerations import IndexType, index_type
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import from_tree, merge
 from lacuna.codegen.flatten.names.scope import Scope, find_class
@@ -130,6 +131,19 @@ class Signature:
         parts = [local.declaration.modification.value, *local.declaration.dimensions]
         return {r.names[0] for r in references(parts)} & {d.name for d in self.locals} - {local.name}
 
+    @cached_property
+    def index_types(self) -> dict[str, tuple[IndexType, ...]]:
+        """Of the dimensions of each array: what their subscripts are of (10.5)."""
+        declared = {d.name: [index_type(size, d.scope) for size in d.declaration.dimensions] for d in self.locals}
+        return {d.name: (*declared[d.name], *(None for _ in d.type.dimensions)) for d in self.locals}
+
+    def scope_of(self, values: dict[str, Value], context: Context) -> Scope:
+        """That of the body, with the values of variables."""
+        return Scope(
+            context, self.written_in, None, values, index_types=self.index_types, in_function=True,
+            pure=not self.cls.impure,
+        )  # fmt: skip
+
     @property
     def outputs(self) -> list[Local]:
         return [d for d in self.locals if d.declaration.causality == "output"]
@@ -178,11 +192,9 @@ def signature_of(cls: ast.Class, context: Context) -> Signature:
                 declaration = replace(declaration, causality=causality)
             declared.append(Local(name, declaration, found_type, scope, modified_in))
         if cls.kind == "function":
-            _check_function(cls, instance, declared)
-            _check_components(cls, declared)
+            check_function(cls, [section for section, _ in instance.sections], declared, context)
         body = tuple(item for section, _ in instance.sections for item in section.items)
-        fixed = {d.name: f"the {d.declaration.variability}" for d in declared if d.declaration.variability in FIXED}
-        _check_targets(body, fixed if cls.kind == "function" else {})
+        check_targets(body, declared if cls.kind == "function" else [])
         external = next((c for c in instance.classes if c.external is not None), None)
         written_in = next((c for section, c in instance.sections if section.items), cls)
         check_names(body, Scope(context, written_in, in_function=True), frozenset(d.name for d in declared))
@@ -202,64 +214,3 @@ def differentiated(cls: ast.Class, context: Context) -> ast.Class:
 def inputs_of(cls: ast.Class, context: Context) -> list[Local]:
     """The inputs of a function; a partial derivative has those of what it is one of (12.7.2)."""
     return signature_of(differentiated(cls, context) if cls.derivative_of else cls, context).inputs
-
-
-def _check_function(cls: ast.Class, instance: Instance, declared: list[Local]) -> None:
-    """What a function must not hold (Modelica 3.6, 12.2)."""
-    sections = [section for section, _ in instance.sections]
-    wrong = next((s for s in sections if s.initial or not s.algorithm), None) or next(iter(sections[1:]), None)
-    if wrong is not None:
-        what = "an initial section" if wrong.initial else "a second algorithm" if wrong.algorithm else "equations"
-        hint = "a function has one algorithm section, or is external"
-        raise Diagnostic("R066", f"the function {cls.name} has {what}", wrong.span, hint)
-    for name, d in ((local.name, local.declaration) for local in declared):
-        if not (d.causality or d.protected or d.variability == "constant"):
-            hint = "declare it input or output, or under 'protected'"
-            raise Diagnostic("R066", f"{name} of the function {cls.name} is public", d.span, hint)
-        if d.causality and d.protected:
-            raise Diagnostic("R066", f"the {d.causality} {name} of {cls.name} is protected", d.span, "make it public")
-        _check_constant(cls, d, declared)
-        if d.inner or d.outer:
-            what = "inner" if d.inner else "outer"
-            raise Diagnostic("R066", f"{what} {name} in the function {cls.name}", d.span, "hand it on as an input")
-
-
-def _check_constant(cls: ast.Class, d: ast.Component, declared: list[Local]) -> None:
-    """A constant of a function does not follow its inputs (3.8), and nothing assigns it, or a parameter (11.2.1)."""
-    if d.variability != "constant" or d.modification.value is None:
-        return
-    varies = {x.name for x in declared if x.declaration.variability != "constant"}
-    used = next((r for r in references(d.modification.value) if r.names[0] in varies), None)
-    if used is not None:
-        message = f"the constant {d.name} of {cls.name} depends on what varies: {used}"
-        raise Diagnostic("R055", message, used.span, "declare it without 'constant'")
-
-
-FIXED = ("constant", "parameter")
-
-
-def _check_targets(items: Iterable[ast.Item], fixed: dict[str, str]) -> None:
-    """Constants, parameters, and the variable of a loop inside it are not assigned (11.2.1, 11.2.2). Raises R058."""
-    for item in items:
-        if isinstance(item, ast.For):
-            _check_targets(item.body, fixed | {i.name: "the loop variable" for i in item.iterators})
-        elif isinstance(item, ast.If | ast.When):
-            for _, body in item.branches:
-                _check_targets(body, fixed)
-        elif isinstance(item, ast.While):
-            _check_targets(item.body, fixed)
-        elif isinstance(item, ast.Assignment):
-            targets = item.target.items if isinstance(item.target, ast.Tuple) else [item.target]
-            wrong = next((t for t in targets if t is not None and t.names[0] in fixed), None)
-            if wrong is not None:
-                hint = "copy it to a variable of the function"
-                raise Diagnostic("R058", f"{fixed[wrong.names[0]]} {wrong} is assigned", wrong.span, hint)
-
-
-def _check_components(cls: ast.Class, declared: list[Local]) -> None:
-    """A function holds types, records and functions only (12.2)."""
-    for local in declared:
-        kind = local.type.cls.kind if local.type.primitive is None and local.type.cls is not None else "type"
-        if kind in ("model", "block", "connector", "package"):
-            message = f"{local.name} of the function {cls.name} is a {kind}"
-            raise Diagnostic("R066", message, local.declaration.span, "a function holds types and records only")

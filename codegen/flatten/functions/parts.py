@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import prod
 
 from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.classes.types import Type
 from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.functions.fitting import conform
 from lacuna.codegen.flatten.functions.locals import signature_of
@@ -25,24 +26,29 @@ class Target:
     span: Span
     flexible: Collection[str]
 
-    def updated(self, old: Value, value: Value, kind: str | None, at: int = 0) -> Value:
+    def updated(self, old: Value, value: Value, kind: Type, at: int = 0) -> Value:
         """`old`, of the type `kind`, with the part that is named, from name number `at` on, as `value`."""
         ref, subscripts, last = self.ref, self.ref.subscripts[at], at + 1 == len(self.ref.names)
+        kinds = None if at else self.scope.index_types.get(ref.names[0])
         if not last:
-            picked = apply_subscripts(_numbers(old), subscripts, self.scope, ref) if isinstance(old, Array) else None
+            picked = (
+                apply_subscripts(_numbers(old), subscripts, self.scope, ref, kinds) if isinstance(old, Array) else None
+            )
             return self._field(old, value, at + 1) if picked is None else self._fields(old, picked, value, at + 1)
         if subscripts is None:
             if ref.names[at] in self.flexible and len(shape_of(old)) == len(shape_of(value)):
                 self.scope.context.spend(len(scalars(value)), self.span)
                 return value
-            return conform(old, value, self.span, str(ref), kind)
-        picked = self._known(apply_subscripts(_numbers(old), subscripts, self.scope, ref))
+            return conform(old, value, self.span, str(ref), kind, self.scope.context)
+        picked = self._known(apply_subscripts(_numbers(old), subscripts, self.scope, ref, kinds))
         if shape_of(picked) != shape_of(value):
             message = f"{shape_text(shape_of(picked))} := {shape_text(shape_of(value))}"
             raise Diagnostic("R042", f"the sides differ in size: {message}", self.span, "both need the same size")
         items = list(old.items)
         for position, new in zip(items_of(picked), items_of(value), strict=True):
-            items[position.value] = conform(old.items[position.value], new, self.span, str(ref), kind)
+            items[position.value] = conform(
+                old.items[position.value], new, self.span, str(ref), kind, self.scope.context
+            )
         return Array(old.shape, tuple(items))
 
     def _known(self, picked: Value) -> Value:
@@ -66,7 +72,7 @@ class Target:
         name = self.ref.names[at]
         if not isinstance(old, Record) or name not in old.fields:
             raise Diagnostic("R003", f"{self.ref} has no such element", self.ref.span, "only records have elements")
-        kinds = {local.name: local.type.primitive for local in signature_of(old.cls, self.scope.context).locals}
+        kinds = {local.name: local.type for local in signature_of(old.cls, self.scope.context).locals}
         changed = self.updated(old.fields[name], value, kinds[name], at)
         return Record(old.name, old.fields | {name: changed}, old.cls)
 

@@ -26,6 +26,7 @@ class Scope:
     instance: Component | None = None
     locals: dict[str, Value] = field(default_factory=dict)
     end: Value | None = None  # the value of `end` inside subscripts
+    index_types: dict[str, tuple] = field(default_factory=dict)  # of the dimensions of a function's variables
     in_function: bool = False
     initial: bool = False  # in an initial section
     conditional: bool = False  # under a condition not known yet: what cannot be computed may never be asked for
@@ -163,8 +164,7 @@ def _imported(library: Library, cls: ast.Class, name: str) -> ast.Class | None:
         if not item.every:
             continue
         package = imported_class(library, item)
-        new = own_or_inherited(library, package, name) if package is not None else None
-        if new is None or new.protected:
+        if package is None or (new := own_or_inherited(library, package, name)) is None or new.protected:
             continue
         if found is not None and found is not new:
             hint = "name the one that is meant by its full name, or import it by name"

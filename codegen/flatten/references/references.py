@@ -75,7 +75,8 @@ def _refuse_beyond_outer(node: Node, ref: ast.Ref, scope: Scope) -> None:
 
 def read_local(ref: ast.Ref, scope: Scope) -> Value:
     """What a name means that starts with a loop variable, or with a variable of a function."""
-    return _further(apply_subscripts(scope.locals[ref.names[0]], ref.subscripts[0], scope, ref), ref, 1, scope)
+    kinds = scope.index_types.get(ref.names[0])
+    return _further(apply_subscripts(scope.locals[ref.names[0]], ref.subscripts[0], scope, ref, kinds), ref, 1, scope)
 
 
 def _further(value: Value, ref: ast.Ref, at: int, scope: Scope) -> Value:
@@ -159,8 +160,7 @@ def member(node: Node, ref: ast.Ref, at: int) -> Node:
 
 
 def _field(node: Node, ref: ast.Ref, scope: Scope) -> Value:
-    whole = replace(ref, names=("",), subscripts=(None,))
-    return _walk(node, whole, 0, scope)
+    return _walk(node, replace(ref, names=("",), subscripts=(None,)), 0, scope)
 
 
 def _walk_array(node: Node, ref: ast.Ref, at: int, scope: Scope) -> Value:

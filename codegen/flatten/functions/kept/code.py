@@ -210,7 +210,7 @@ def _emit(name: str, source: Source, context: Context, span: Span) -> None:
     function = flat.Function(name, names, (), {}, {}, {}, [], cls.span)
     context.functions[name] = function
     context.table(Sources)[name] = source
-    scope = Scope(context, signature.written_in, None, dict(fixed), in_function=True, pure=not cls.impure)
+    scope = signature.scope_of(dict(fixed), context)
     writer = Writer(function, scope)
     for bound in source.functions.bound:
         writer.declare(bound, inputs[bound])
