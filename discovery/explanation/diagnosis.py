@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 import json
 import math
 from pathlib import Path
@@ -110,10 +111,9 @@ def _form(result: Explanation, finding: Finding) -> str:
 
 
 def _coefficient(finding: Finding) -> str:
-    """The parameter that a law is added to, where that is not the place itself; "" where it is added to a balance."""
+    """The parameter that a law is added to; "" where it is added to a balance."""
     site = finding.ranked.attachment.site
-    varies = site is not None and site.kind == "parameter" and site.label != finding.ranked.attachment.location
-    return site.label if varies else ""
+    return site.label if site is not None and site.kind == "parameter" else ""
 
 
 def _positive_phase(parameters: dict[str, dict], name: str) -> None:
@@ -222,9 +222,9 @@ def sentence(result: Explanation) -> str:
         falls = f"with it the error {_fall(result)} times."
         return f"The model lacks {' and '.join(parts)}; {falls}{rest}"
     if result.verdict == "parameters":
-        fitted = [f for f in result.base.estimate.free if not f.name.startswith("start:")]
-        names = [f.name for f in fitted if _outside(f, result.final.point[f.name])]
-        return f"Nothing is missing; {', '.join(names)} differ{'s' if len(names) == 1 else ''} from what was believed."
+        fitted = _parameters(result, {})
+        outside = [(n, p) for n, p in fitted.items() if p["outside_belief"]]
+        return f"Nothing is missing; {' and '.join(_is(name, p) for name, p in outside)}."
     if result.verdict == "consistent":
         left = [w.column for w in whiteness(result.final).values() if not w.passed]
         more = f", and less than that of {' and '.join(left)}, as of an instrument that drifts" if left else ""
@@ -234,6 +234,11 @@ def sentence(result: Explanation) -> str:
     if result.stopped:
         return f"What is missing is not known yet: {result.reason}."
     return "These recordings cannot say what is missing: " + (result.reason or "the residual is not noise") + "."
+
+
+def _is(name: str, parameter: Mapping[str, Any]) -> str:
+    unit = "" if parameter["unit"] == "1" else f" {parameter['unit']}"
+    return f"{name} is {parameter['value']:.3g}{unit}, where {parameter['believed']:.3g} was believed"
 
 
 def _fall(result: Explanation) -> str:
@@ -258,8 +263,10 @@ def _named(result: Explanation, finding: Finding) -> str:
     if a.law is not None:
         form = _form(result, finding)
         named = f" ({in_words(form)})" if form else ""
-        added = f" added to {_coefficient(finding)}," if _coefficient(finding) else ""
-        return f"a term {law_text(result, finding)}{added} {at(a.location)}{named}{_as_well(a)}{or_else}"
+        where, added = at(a.location), _coefficient(finding)
+        if added:
+            where = f"added to {added}" if added == a.location else f"added to {added}, {where}"
+        return f"a term {law_text(result, finding)} {where}{named}{_as_well(a)}{or_else}"
     return f"{a.effect.title[0].lower()}{a.effect.title[1:]} at {a.location}{or_else}"
 
 

@@ -41,6 +41,7 @@ def proposals(
     ones = [_told_here(place, r, _refined(r, every)) for place, (r, every) in zip(quantities, offered, strict=True)]
     first = _best([(r, groups) for (r, _), groups in zip(offered, ones, strict=True)], most)
     first += _held(locator, guided, offered, first)
+    first += _limited(offered, ones, first)
     yield _forgetting(offered, first)
     if strained:
         yield _forgetting(offered, _best([(r, _refined(r, every, strained=True)) for r, every in offered], most))
@@ -73,6 +74,20 @@ def _held(
             laws = [_proposal(regression, (g,)) for g in every if regression.groups[g].texts == (v.dry,)]
             found += [replace(p, start={"c_1": level}) for p in laws if level * sense < 0 and p.law.text() not in known]
     return found
+
+
+def _limited(
+    offered: list[tuple[Regression, range]], ones: list[list[tuple[int, ...]]], others: list[Proposal]
+) -> list[Proposal]:  # fmt: skip
+    """A limit of a rate, where it is among the best kinds and no other law of it is tried. Parameters that have stood
+    for it (a time constant that is too long) leave little of it beyond what is in proportion; only a fit puts them
+    back."""
+    known = {text for law in others for group in law.law.groups for text in group.texts}
+    found = []
+    for (regression, _), best in zip(offered, ones, strict=True):
+        limits = (law for law in best[:FAMILIES] if regression.groups[law[0]].texts[0].startswith("bounded("))
+        found += [_proposal(regression, law) for law in limits if regression.groups[law[0]].texts[0] not in known]
+    return found[:1]
 
 
 def _level(guided: Guided, v: Variable) -> float:

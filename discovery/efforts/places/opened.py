@@ -33,7 +33,16 @@ from lacuna.discovery.efforts.latent.linear import Linear
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.places.families import families
 from lacuna.discovery.efforts.places.insertion import probe
-from lacuna.discovery.efforts.places.place import ORDER, Place, own_name, size_of, told_apart, weightiest
+from lacuna.discovery.efforts.places.place import (
+    ORDER,
+    Place,
+    name_there,
+    own_name,
+    size_of,
+    told_apart,
+    touches,
+    weightiest,
+)
 from lacuna.discovery.efforts.places.reading import read
 from lacuna.discovery.efforts.places.sites import Site, exchanges, renames, varying
 from lacuna.discovery.fit.machine import Machine, richer
@@ -132,7 +141,7 @@ class Opened:
         changed = states if strength[: len(states)].max(initial=0.0) > 0 else list(self.machine.columns.values())
         name = changed[int(np.argmax(strength[: len(states)] if changed is states else strength[len(states) :]))]
         location = name.rpartition(".")[0] or name
-        order = sorted(group, key=lambda k: (not _touches(self.sites[k], location), ORDER[self.sites[k].kind]))
+        order = sorted(group, key=lambda k: (not touches(self.sites[k], location), ORDER[self.sites[k].kind]))
         order = weightiest(order, self.sites, weights)
         chosen = order[0]
         several = np.count_nonzero(strength[: len(states)]) > 1
@@ -159,19 +168,13 @@ class Opened:
         return into.rpartition(".")[0] or into
 
     def _quantity(self, place: Place, k: int, proportional: bool) -> Place:
-        """A place by another one of its sites: of another component, that has its name."""
+        """A place by another one of its sites."""
         site = self.sites[k]
-        elsewhere = site.kind == "equation" and site.instance and not _is_in(place.location, site.instance)
-        location = site.label if site.kind == "input" else own_name(site) if elsewhere else place.location
-        only = site.label if proportional else ""
+        location, only = name_there(site, place.location), site.label if proportional else ""
         return replace(place, location=location, sites=(site,), columns=(k,), unit=self._unit(k), only=only)
 
     def _unit(self, number: int) -> str:
         return unit_of(self.sites[number], self.believed)
-
-
-def _is_in(name: str, component: str) -> bool:
-    return f"{name}.".startswith(f"{component}.")
 
 
 def _directions(effect: np.ndarray) -> np.ndarray:
@@ -232,12 +235,6 @@ def _parts(one: np.ndarray, other: np.ndarray) -> bool:
 def _declared_unit(variables: Mapping, name: str) -> object:
     v = variables[name]
     return of_variable(v.unit, v.type, v.variability)
-
-
-def _touches(site: Site, location: str) -> bool:
-    if site.kind == "equation":
-        return f"der({location})" in (site.left or site.label) or site.instance == location
-    return any(end.rpartition(".")[0] == location for end in site.ends)
 
 
 def opened(

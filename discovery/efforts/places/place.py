@@ -79,6 +79,25 @@ def own_name(site: Site) -> str:
     return site.left or (first[1] if first and not site.instance else name.partition("=")[0].strip())
 
 
+def name_there(site: Site, location: str) -> str:
+    """What a place of that name is called where something is done at one of its sites: an input and an equation of
+    another component have names of their own, a coefficient where nothing of that name is in its equations."""
+    if site.kind == "input":
+        return site.label
+    if site.kind == "equation" and site.instance and not f"{location}.".startswith(f"{site.instance}."):
+        return own_name(site)
+    read = rf"(?<![\w.]){re.escape(location)}(?![\w.])"
+    alone = site.kind == "parameter" and "." not in site.label
+    return site.label if alone and not any(re.search(read, part.label) for part in site.parts) else location
+
+
+def touches(site: Site, location: str) -> bool:
+    """Whether a site is in the balance of a state, or joins a component, of that name."""
+    if site.kind == "equation":
+        return f"der({location})" in (site.left or site.label) or site.instance == location
+    return any(end.rpartition(".")[0] == location for end in site.ends)
+
+
 def size_of(name: str, along: Sequence[Along]) -> float:
     """RMS of a variable along runs; 0 where there is none of that name."""
     courses = [np.atleast_1d(a.values[name]) for a in along if name in a.values]
