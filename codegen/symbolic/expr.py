@@ -448,7 +448,7 @@ def _text(e: Expr, outer: int) -> str:
     if e.op == "const":
         text = str(e.value).lower() if e.type == BOOLEAN else repr(e.value)
         return f"({text})" if text.startswith("-") and outer > 4 else text
-    if e.op == "var":
+    if e.op in ("var", "unset"):
         return str(e.value)
     if e.op == "time":
         return "time"

@@ -248,7 +248,7 @@ class ClassParser(EquationParser):
         nested.redeclares = bool(prefixes.pop("redeclare"))
         for name, written in prefixes.items():
             setattr(nested, name, written)
-        nested.constraint = self.constraining_clause()
+        nested.constraint = self.constraining_clause(nested.replaceable)
         if nested.constraint is not None:
             nested.description = nested.description or self.description()
             if self.kind == "annotation":

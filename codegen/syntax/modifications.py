@@ -55,7 +55,7 @@ class ModificationParser(ExpressionParser):
             result.append(self._component(kind, shared, options))
             if single or not self.accept(","):
                 break
-        constraint = self.constraining_clause()
+        constraint = self.constraining_clause(bool(prefixes.get("replaceable")))
         if constraint is not None:
             description = self.description()
             for component in result:
@@ -81,10 +81,14 @@ class ModificationParser(ExpressionParser):
             raise Diagnostic("P002", f"a class is named without subscripts, {name}", name.span, hint)
         return name
 
-    def constraining_clause(self) -> ast.Extends | None:
-        """constrainedby CLASS(...), where it stands here."""
+    def constraining_clause(self, replaceable: bool = True) -> ast.Extends | None:
+        """constrainedby CLASS(...), where it stands here: behind what is replaceable (A.2.2). Raises P021."""
+        start = self.at
         if not self.accept("constrainedby"):
             return None
+        if not replaceable:
+            hint = "write 'replaceable' before the declaration"
+            raise Diagnostic("P021", "what is not replaceable has no 'constrainedby'", self.span_from(start), hint)
         bound = self.type_name()
         modification = self.modification() if self.kind == "(" else ast.Modification(bound.span)
         return ast.Extends(bound.span, bound, modification)

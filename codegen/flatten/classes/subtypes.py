@@ -19,7 +19,7 @@ def require_subtype(chosen: Type, bound: Type, context: Context, elements: Eleme
     """Raises R034 where `chosen` cannot stand for `bound`."""
     reason = mismatch(chosen, bound, context, elements)
     if reason:
-        hint = f"choose a class that has what {bound.cls.name if bound.cls else bound.primitive} has"
+        hint = f"choose a class that has what {_name(bound)} has"
         raise Diagnostic("R034", f"{what}: {reason}", span, hint)
 
 
@@ -35,14 +35,16 @@ def mismatch(chosen: Type, bound: Type, context: Context, elements: ElementsOf, 
     if chosen.cls is bound.cls or depth > MAX_DEPTH:
         return ""
     needed, offered = elements(bound.cls), elements(chosen.cls)
+    if bound.cls.kind == chosen.cls.kind == "function" and not _in_order(needed, offered):
+        return "its inputs come in another order"
     missing = [n for n, e in needed.items() if n not in offered and not e.declaration.protected]
     if missing:
-        return f"{chosen.cls.name} lacks {', '.join(missing)} of {bound.cls.name}"
+        return f"{_name(chosen)} lacks {', '.join(missing)} of {_name(bound)}"
     for name, element in needed.items():
         if element.declaration.protected:
             continue
         if offered[name].declaration.protected:
-            return f"{name} is protected in {chosen.cls.name}"
+            return f"{name} is protected in {_name(chosen)}"
         inner = [_type_of(e, context) for e in (offered[name], element)]
         reason = _other_prefixes(offered[name].declaration, element.declaration, inner)
         have = offered[name]
@@ -53,6 +55,12 @@ def mismatch(chosen: Type, bound: Type, context: Context, elements: ElementsOf, 
         if reason:
             return f"{name}: {reason}"
     return ""
+
+
+def _in_order(needed: Mapping[str, Element], offered: Mapping[str, Element]) -> bool:
+    """Whether the inputs of one function come in the order in which those of another one do (6.6)."""
+    wanted = [name for name, e in needed.items() if e.declaration.causality == "input" and name in offered]
+    return wanted == [name for name in offered if name in wanted]
 
 
 _VARIABILITIES = ("constant", "parameter", "discrete", "")  # from the narrowest
@@ -78,4 +86,7 @@ def _type_of(element: Element, context: Context) -> Type:
 
 
 def _name(kind: Type) -> str:
-    return kind.cls.name if kind.cls is not None else str(kind.primitive)
+    """A short definition by what it is short for: one that is redeclared has the name of what it stands for."""
+    if kind.cls is None:
+        return str(kind.primitive)
+    return kind.cls.name if kind.cls.alias is None or kind.cls.alias.target else str(kind.cls.alias.base)

@@ -60,6 +60,10 @@ def equate(left: Value, right: Value, span: Span, scope: Scope, text: str) -> li
     """The scalar equations of left = right."""
     if shape_of(left) != shape_of(right) or holds_records(left) != holds_records(right):
         message = f"{shape_text(shape_of(left))} = {shape_text(shape_of(right))}"
+        if holds_records(left) != holds_records(right):
+            raise Diagnostic(
+                "R042", "one side is a record, the other is none", span, "equate the elements of the record"
+            )
         raise Diagnostic("R042", f"the sides differ in size: {message}", span, "both sides need the same size")
     result = []
     for a, b in pairs(left, right, span, scope):
@@ -102,6 +106,11 @@ def _is_constant(value: Value, scope: Scope) -> bool:
 def check_types(a: Expr | str, b: Expr | str, span: Span, scope: Scope) -> None:
     """Both sides Boolean, both Integer, or at least one Real with numbers only."""
     if not (isinstance(a, Expr) and isinstance(b, Expr)):
+        kinds = sorted({"String" if isinstance(side, str) else side.type for side in (a, b)})
+        if len(kinds) > 1:
+            raise Diagnostic(
+                "R024", f"the sides are {kinds[0]} and {kinds[1]}", span, "String(x) is the text of a number"
+            )
         hint = "a String has one equation of its own, outside of conditions: s = ..."
         raise Diagnostic("R024", "an equation between Strings", span, hint)
     kinds = {a.type, b.type}

@@ -36,6 +36,9 @@ def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callab
         items = list(values.items)
         for item in items[1:] if empty is None else ():
             require_same(items[0], item, scope.context, e.span)
+        if empty is not None and any(isinstance(i, Expr) and enumeration_of(i, scope.context) for i in items):
+            message = f"{e.function} is of numbers, given values of an enumeration"
+            raise Diagnostic("R025", message, e.span, "Integer(e) is the number of a literal")
         if not items and empty is None and isinstance(e.args[0], ast.Comprehension):
             return _extreme(e.args[0], str(e.function) == "min", scope)
         if not items and empty is None:

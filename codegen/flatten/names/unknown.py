@@ -48,6 +48,8 @@ def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> 
         held = f"{current.name} has {', '.join(known[:LISTED])}{more}" if known else ""
         current = own_or_inherited(library, current, name)
     hint = did_you_mean(missing, known) or held or _to_import(library, ref) or _elsewhere(library, ref)
+    if current is not None and len(ref.names) == 1:
+        hint = f"{missing} is inherited, and what is extended is looked up outside of what a class inherits (5.6.1)"
     if current is None and missing == ref.names[0] in visible_classes(library, cls):
         imported = _imported_as(cls, missing)
         hint = (
@@ -67,18 +69,24 @@ def unknown_element(cls: ast.Class, name: str, known: Iterable[str], span: Span)
 
 def unknown_function(ref: ast.Ref, scope: Scope) -> Diagnostic:
     """R004: no function of this name, with the nearest that there are; of a variable, that it is one."""
-    hint = did_you_mean(ref.names[-1], _functions_beside(ref, scope), "declare it, or import its package")
+    if str(ref) in scope.context.lowering.functions:
+        return Diagnostic("R004", f"{ref} has one result", ref.span, f"write y := {ref}(...), or y = {ref}(...)")
+    library, before = scope.context.library, ref.names[:-1]
+    package = (
+        find_class(library, scope.cls, replace(ref, names=before, subscripts=ref.subscripts[:-1])) if before else None
+    )
+    if package is not None and package.alias is not None and not base_classes(library, package):
+        return unknown_class(library, package, package.alias.base, "class")
+    hint = did_you_mean(ref.names[-1], _functions_beside(package, scope), "declare it, or import its package")
     if scope.instance is not None and ref.names[0] in scope.instance.elements:
         hint = f"{ref} is a variable: index it as {ref}[i], multiply as {ref}*(...)"
     return Diagnostic("R004", f"there is no function {ref}", ref.span, hint)
 
 
-def _functions_beside(ref: ast.Ref, scope: Scope) -> list[str]:
-    """Names that the last one of `ref` may mean where there is no such function: of the package before it, if any."""
-    library, before = scope.context.library, ref.names[:-1]
-    package = (
-        find_class(library, scope.cls, replace(ref, names=before, subscripts=ref.subscripts[:-1])) if before else None
-    )
+def _functions_beside(package: ast.Class | None, scope: Scope) -> list[str]:
+    """Names that the last one of a reference may mean where there is no such function: of the package before it, if
+    any."""
+    library = scope.context.library
     if package is not None:
         return [name for own in (package, *base_classes(library, package)) for name in library.members(own)]
     return [*scope.context.lowering.functions, *visible_classes(library, scope.cls)]

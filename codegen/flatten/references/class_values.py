@@ -53,6 +53,8 @@ def _constant_of(cls: ast.Class, name: str, ref: ast.Ref, context: Context) -> N
     if element is None or element.declaration.variability != "constant":
         known = [*context.library.members(cls), *package.elements]
         hint = did_you_mean(name, known, f"{cls.name} has {', '.join(known[:12])}")
+        if element is not None:
+            hint = f"declare a component of {cls.name} and use that of it, or declare {name} constant"
         raise Diagnostic("R002", f"{cls.path} has no constant {name}", ref.span, hint)
     if element.declaration.protected:
         error = Diagnostic("R017", f"{name} is protected in {cls.name}", ref.span, "make it public to use it here")
