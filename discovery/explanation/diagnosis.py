@@ -219,7 +219,7 @@ def sentence(result: Explanation) -> str:
             return f"The model lacks {' and '.join(parts)}; without it {_moved(result)} from what was believed."
         share = explained(result)
         rest = "" if share >= PARTIAL else f" This is a part of it only: {1 - share:.0%} of the misfit is left."
-        falls = f"with it the error {_fall(result)} times."
+        falls = f"with it the error {_fall(result)}."
         return f"The model lacks {' and '.join(parts)}; {falls}{rest}"
     if result.verdict == "parameters":
         fitted = _parameters(result, {})
@@ -246,9 +246,10 @@ def _fall(result: Explanation) -> str:
     noise of others hides it."""
     gains = {c: error / max(result.after.validate[c], 1e-12) for c, error in result.before.validate.items()}
     if gains[""] * CLEARLY > 1:
-        return f"on unseen recordings falls {gains['']:.2g}"
+        return f"on unseen recordings falls {gains['']:.2g} times"
     column = max(result.floor, key=lambda c: gains[c])
-    return f"of {column} on unseen recordings falls {gains[column]:.2g}"
+    by = f"{gains[column]:.2g} times" if gains[column] * CLEARLY > 1 else f"by {1 - 1 / gains[column]:.0%}"
+    return f"of {column} on unseen recordings falls {by}"
 
 
 def _moved(result: Explanation) -> str:

@@ -26,11 +26,13 @@ from lacuna.discovery.fit.evidence import (
     whiteness,
     within_instruments,
 )
-from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.fit import Fit, nrmse
 from lacuna.discovery.fit.solver.free import pulls
+from lacuna.discovery.fit.zeros import zeros_of
 from lacuna.discovery.law.law import law_at
 from lacuna.discovery.naming.comparison import TIE, Ranked, price, score
 from lacuna.discovery.naming.foretold import foretold
+from lacuna.discovery.naming.judge import Judgement
 from lacuna.discovery.naming.name import AS_LIKELY, Finding
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.runtime import SimulationError
@@ -67,7 +69,7 @@ def _worst(result: Explanation) -> str:
 
 def _is_refuted(result: Explanation) -> bool:
     """Whether what was found does not hold on unseen recordings, of which the fitted believed model leaves noise."""
-    if pays(result.before.validate, result.after.validate, result.floor):
+    if pays(*_unseen(result), result.floor):
         return False
     without = copy(result)
     _believe_again(without)
@@ -124,13 +126,13 @@ def _doubt(result: Explanation) -> tuple[str, str] | None:
     tied with another place, or what is recorded of the inputs would do the same. None where nothing of this is."""
     first = result.findings[0]
     label, others = first.ranked.attachment.label, first.naming.ranked[1:]
-    if not pays(result.before.validate, result.after.validate, result.floor):
+    if not pays(*_unseen(result), result.floor):
         reason = "explains the recordings that it was fitted to, but does not hold on those that only judge"
         return f"{label} {reason}", experiment_for(first.ranked, others)
     if (taken := _taken(result)) < LEAST_TAKEN:
         reason = (
-            f"{label} fits best, but takes only {taken:.0%} of the error on unseen recordings that is above noise "
-            "away: what is missing is something else"
+            f"{label} fits best, but takes only {max(taken, 0):.0%} of the error on unseen recordings that is above "
+            "noise away: what is missing is something else"
         )
         return reason, experiment_for(first.ranked, others)
     if all(_is_anywhere(result, f) for f in result.findings):
@@ -184,9 +186,22 @@ def _told(ranked: Ranked | Candidate) -> str:
 def _taken(result: Explanation) -> float:
     """Share of the unseen error above noise that the findings take away, in units of the noise of each signal, which
     is known no better than CLEARLY tells: one whose noise is large hides nothing of the others."""
-    before, after = result.before.validate, result.after.validate
+    before, after = _unseen(result)
     above = sum((before[c] - min(f, CLEARLY * before[c])) / f for c, f in result.floor.items())
     return sum((before[c] - after[c]) / f for c, f in result.floor.items()) / above
+
+
+def _unseen(result: Explanation) -> tuple[dict[str, float], dict[str, float]]:
+    """NRMSE on unseen recordings before and after, less the zeros of the sensors that the fits tell beside themselves:
+    a small one would hide what a finding takes away."""
+    case = result.case
+
+    def error(fit: Fit, judgement: Judgement) -> dict[str, float]:
+        zeros, told = zeros_of(fit), judgement.residuals
+        left = {r.name: {c: e - zeros[c] for c, e in told[r.name].items()} for r in case.validate}
+        return nrmse(case, case.validate, left)
+
+    return error(result.base, result.before), error(result.final, result.after)
 
 
 def _efforts(result: Explanation) -> list[Site]:

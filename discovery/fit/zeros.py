@@ -27,6 +27,15 @@ def beside_zeros(found: Fit) -> Fit:
     return found.zeroed
 
 
+def zeros_of(found: Fit) -> dict[str, float]:
+    """The zero of each output that a fit tells beside itself, SI; nothing where it has no Jacobian."""
+    beside = beside_zeros(found)
+    if beside is found:
+        return dict.fromkeys(found.noise, 0.0)
+    values = beside.estimate.values[-len(found.noise) :]
+    return {c: float(z) * n.std for (c, n), z in zip(found.noise.items(), values, strict=True)}
+
+
 def _stepped(found: Fit) -> Fit:
     estimate, columns = found.estimate, _columns(found)
     belief = [(f.scale / f.sigma) ** 2 if f.sigma else 0.0 for f in estimate.free]

@@ -248,12 +248,13 @@ static rt_status start(rt_session *s, bool steady) {
   return first_events(s);
 }
 
-/* Where the first event does not settle, from modes that were never meant (elements that stick on one shaft), it begins
- * where it would lead: at discrete values that are before it what they are after it. */
+/* Where the start or its first event does not settle, from modes that were never meant (elements that stick though they
+ * move, or both on one shaft), it begins where it would lead: at discrete values that are before it what they are after
+ * it. */
 rt_status rt_initialise(rt_session *s) {
   rt_failure before = s->failure;
   rt_status status = start(s, false);
-  if (status != RT_EVENT_CYCLE) return status;
+  if (status != RT_EVENT_CYCLE && status != RT_INITIALISATION) return status;
   rt_failure told = s->failure;
   s->failure = before;
   if (start(s, true)) s->failure = told;

@@ -12,6 +12,9 @@
 
 static const double lowest = 1e-3; /* of the nominal value: where a tolerance by the largest size begins */
 
+static const double several = 8;   /* of the smallest steps: a method begins with a few of about one length */
+enum { deep = 8 };                 /* states that move one another from rest, each by the one before */
+
 static double sized(double nominal, double start) {
   double size = nominal > 0 && isfinite(nominal) ? nominal : 0;
   if (isfinite(start)) size = rt_max(size, fabs(start));
@@ -58,6 +61,38 @@ static void set_tolerances(rt_session *s) {
     s->atol[i] = relative * rt_min(s->nominal[i], rt_max(s->range[i], least * s->nominal[i]));
 }
 
+/* States as they are a short way from the start on, by Euler's steps of that length from one slope to the next: what is
+ * moved by what moves follows in the next. Whether one has moved that had not. */
+static bool move_on(rt_session *s, double way) {
+  bool more = false;
+  for (int i = 0; i < s->d->n_x; i++)
+    s->x_trial[i] = s->data.x[i] + way * s->xdot_trial[i];
+  if (rt_rhs(s, s->t + way, s->x_trial, s->xdot_trial, s->v_trial)) return false;
+  for (int i = 0; i < s->d->n_x; i++) {
+    double reached = way * fabs(s->xdot_trial[i]);
+    if (!isfinite(reached)) return false;
+    more |= reached > 0 && s->range[i] == 0;
+    s->range[i] = rt_max(s->range[i], reached);
+  }
+  return more;
+}
+
+/* A step errs by no more than its tolerance where that is small beside the size of a state by the square of what the
+ * step is beside the time in which the state comes to it. Steps that time resolves can do that for sizes that are
+ * reached in so many of them, and for no smaller ones. */
+static void begin_where_time_resolves(rt_session *s) {
+  const double way = several * rt_smallest_step(s) / sqrt(s->options.atol);
+  mdl_failure told = s->data.failure;
+  int undetermined = s->data.undetermined, unsettled = s->data.unsettled;
+  memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
+  memcpy(s->xdot_trial, s->data.xdot, (size_t)s->d->n_x * sizeof *s->xdot_trial);
+  for (int k = 0, more = 1; more && k < deep; k++)
+    more = move_on(s, way);
+  s->data.failure = told;
+  s->data.undetermined = undetermined, s->data.unsettled = unsettled;
+  if (s->d->n_u) rt_inputs_at(s, s->t);
+}
+
 /* At the start: sizes of what the model tells nothing of, and the first tolerances. */
 void rt_scale_start(rt_session *s) {
   const mdl_descriptor *d = s->d;
@@ -66,6 +101,7 @@ void rt_scale_start(rt_session *s) {
     s->nominal[i] = sized(s->nominal[i], start);
     s->range[i] = i < d->n_x ? fabs(start) : s->nominal[i];
   }
+  if (d->n_x && !s->atol_given) begin_where_time_resolves(s);
   set_tolerances(s);
 }
 
