@@ -12,8 +12,8 @@
 
 static const double lowest = 1e-3; /* of the nominal value: where a tolerance by the largest size begins */
 
-static const double several = 8;   /* of the smallest steps: a method begins with a few of about one length */
-enum { deep = 8 };                 /* states that move one another from rest, each by the one before */
+static const double several = 8; /* of the smallest steps: a method begins with a few of about one length */
+enum { deep = 8 };               /* states that move one another from rest, each by the one before */
 
 static double sized(double nominal, double start) {
   double size = nominal > 0 && isfinite(nominal) ? nominal : 0;

@@ -45,7 +45,8 @@ def test_a_ramp_from_rest(tmp_path: Path, solver: str, begin: float) -> None:
     for start in (0.0, begin):
         ramp = runtime.RecordedInput(start + np.array([0.0, 1.0]), np.array([0.0, 24.0]))
         run = runtime.simulate(
-            model, solver=solver, start=start, stop=start + 1.0, rtol=1e-6, interval=0.1, inputs={"u": ramp}, events=False
+            model, solver=solver, start=start, stop=start + 1.0, rtol=1e-6, interval=0.1, inputs={"u": ramp},
+            events=False,
         )  # fmt: skip
         assert run.complete, run.failure
         runs.append(run)
