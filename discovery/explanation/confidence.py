@@ -38,7 +38,11 @@ def odds(finding: Finding, share: float) -> str:
     most, name = max([*rivals, (1.0 - share, NONE)])
     if own >= CERTAIN:
         return f"more than {CERTAIN / (1 - CERTAIN):.0f} to 1 against the next best, {name}"
-    return f"{own / max(most, 1 - CERTAIN):.2g} to 1 against the next best, {name}"
+    return f"{_to_one(own / max(most, 1 - CERTAIN))} against the next best, {name}"
+
+
+def _to_one(ratio: float) -> str:
+    return f"{float(f'{ratio:.2g}'):g} to 1"
 
 
 def explained(result: Explanation) -> float:
@@ -84,5 +88,5 @@ def certainty(result: Explanation) -> str:
         return "How sure: what is left passes for noise over one sample and over hundreds, so nothing was sought."
     best = min(tried, key=lambda r: r.score)
     against = float(np.exp(np.clip(best.score / TEMPER, -50.0, 50.0)))
-    sure = f"{min(against, CERTAIN / (1 - CERTAIN)):.2g} to 1 against the best of what was tried"
+    sure = f"{_to_one(min(against, CERTAIN / (1 - CERTAIN)))} against the best of what was tried"
     return f"How sure: {sure}, {best.attachment.effect.identifier} at {best.attachment.location}."
