@@ -180,8 +180,9 @@ def test_what_unseen_recordings_refute_leaves_the_verdict_of_a_model_that_tells_
 def test_a_finding_that_leaves_nearly_all_that_is_above_noise_is_no_diagnosis(
     explained: Explanation, left: float, noise: float, verdict: str
 ) -> None:
-    before = explained.before.validate
-    after = replace(explained.after, validate={n: left * v for n, v in before.items()})
+    before, told = explained.before.validate, explained.before.residuals
+    less = {r: {c: left * e for c, e in columns.items()} for r, columns in told.items()}
+    after = replace(explained.after, validate={n: left * v for n, v in before.items()}, residuals=less)
     floor = dict.fromkeys(explained.floor, noise * before[""])
     result = replace(explained, after=after, floor=floor, reason="", experiment="")
     conclude(result)

@@ -46,7 +46,8 @@ def proposals(
     if strained:
         yield _forgetting(offered, _best([(r, _refined(r, every, strained=True)) for r, every in offered], most))
     twos = [(r, _doubled(r, groups, every)) for (r, every), groups in zip(offered, ones, strict=True)]
-    yield _forgetting(offered, _best(twos, most))
+    pairs = _best(twos, most)
+    yield _forgetting(offered, pairs + _from_a_level(twos, pairs))
     for (r, _), one, (_, two) in list(zip(offered, ones, twos, strict=True))[1:] if apart else ():
         for groups in (one, two):
             yield _forgetting(offered, _best([(r, groups)], most))
@@ -88,6 +89,19 @@ def _limited(
         limits = (law for law in best[:FAMILIES] if regression.groups[law[0]].texts[0].startswith("bounded("))
         found += [_proposal(regression, law) for law in limits if regression.groups[law[0]].texts[0] not in known]
     return found[:1]
+
+
+def _from_a_level(twos: list[tuple[Regression, list[tuple[int, ...]]]], others: list[Proposal]) -> list[Proposal]:
+    """The best term beside a level in each quantity, which is one term from a zero of its own (of a temperature, say),
+    where none of two groups that is tried is so: others with more numbers bend further to what is no law."""
+
+    def is_level(texts: tuple[str, ...]) -> bool:
+        return texts == ("1",)
+
+    if any(is_level(group.texts) for law in others for group in law.law.groups):
+        return []
+    found = ((r, [p for p in pairs if any(is_level(r.groups[g].texts) for g in p)]) for r, pairs in twos)
+    return [_proposal(r, pairs[0]) for r, pairs in found if pairs]
 
 
 def _level(guided: Guided, v: Variable) -> float:
@@ -217,8 +231,10 @@ def _doubled(regression: Regression, single: list[tuple[int, ...]], every: range
     kinds: dict[frozenset, tuple[int, ...]] = {}
     for key in sorted(scored, key=lambda k: scored[k]):
         kinds.setdefault(frozenset(regression.groups[g].kind for g in key), key)
-    likely = ((scored[pair], regression, pair) for pair in kinds.values() if regression.strain(pair) < 1)
-    better = _refined_pairs(regression, [(pair, score) for score, _, pair in _distinct(likely, PAIRS)])
+    likely = [pair for pair in kinds.values() if regression.strain(pair) < 1]
+    kept = [pair for _, _, pair in _distinct(((scored[p], regression, p) for p in likely), PAIRS)]
+    kept += [pair for pair in likely if level[0] in pair and pair not in kept][:1]
+    better = _refined_pairs(regression, [(pair, scored[pair]) for pair in kept])
     return [pair for pair, _ in sorted(better, key=lambda b: b[1])]
 
 
