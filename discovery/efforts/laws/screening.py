@@ -93,14 +93,16 @@ def _limited(
 
 def _from_a_level(twos: list[tuple[Regression, list[tuple[int, ...]]]], others: list[Proposal]) -> list[Proposal]:
     """The best term beside a level in each quantity, which is one term from a zero of its own (of a temperature, say),
-    where none of two groups that is tried is so: others with more numbers bend further to what is no law."""
+    where none of two groups that is tried is so: others with more numbers bend further to what is no law. What is
+    the same in several balances has none: it would be one of any of them."""
 
     def is_level(texts: tuple[str, ...]) -> bool:
         return texts == ("1",)
 
     if any(is_level(group.texts) for law in others for group in law.law.groups):
         return []
-    found = ((r, [p for p in pairs if any(is_level(r.groups[g].texts) for g in p)]) for r, pairs in twos)
+    own = ((r, pairs) for r, pairs in twos if r.place.place.kind not in ("exchange", "every"))
+    found = ((r, [p for p in pairs if any(is_level(r.groups[g].texts) for g in p)]) for r, pairs in own)
     return [_proposal(r, pairs[0]) for r, pairs in found if pairs]
 
 
