@@ -18,8 +18,7 @@ from lacuna.codegen.syntax.references import references
 
 
 def iterate(iterator: ast.Iterator, scope: Scope, body: object) -> tuple[Value, ...]:
-    """The values a loop variable takes, in order, rows of a matrix; without a range they follow from what it indexes in
-    `body`."""
+    """The values a loop variable takes, in order; without a range they follow from what it indexes in `body`."""
     if iterator.range is None:
         return _implied(iterator, scope, body)
     kind = index_type(iterator.range, scope)
@@ -28,6 +27,9 @@ def iterate(iterator: ast.Iterator, scope: Scope, body: object) -> tuple[Value, 
     value = lower(iterator.range, scope)
     if not isinstance(value, Array):
         raise Diagnostic("R047", f"{iterator.name} runs over a scalar", iterator.span, "write 1:n or an array")
+    if len(value.shape) != 1:
+        message = f"{iterator.name} runs over an array of {len(value.shape)} dimensions"
+        raise Diagnostic("R047", message, iterator.span, "a loop runs over a vector")
     scope.context.spend(value.shape[0], iterator.span)
     return tuple(value.rows())
 
