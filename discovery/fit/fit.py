@@ -102,6 +102,15 @@ class Fit:
         )
         return float(total) / self.counts()[column] / self.noise[column].std ** 2
 
+    def moved(self, name: str, move: np.ndarray) -> dict[str, np.ndarray]:
+        """The residuals (n,) of a recording in SI, after a move (n times outputs,) of its weighted ones."""
+        result = {}
+        for k, (column, noise) in enumerate(self.noise.items()):
+            own, weight = self.residuals[name][column], self.weights[name][column] / (noise.std * self.level[column])
+            change = move[k * len(own) : (k + 1) * len(own)]
+            result[column] = own + np.divide(change, weight, out=np.zeros_like(own), where=weight > 0)
+        return result
+
     def inflation(self) -> float:
         """Factor on the covariance for coloured residuals, mean over signals."""
         colour = self.correlation()

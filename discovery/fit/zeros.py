@@ -66,7 +66,8 @@ def _stepped(found: Fit) -> Fit:
         normal=np.block([[every, -whole], [-whole.T, own]]),
         jacobian=[np.hstack([j, -z]) for j, z in zip(estimate.jacobian, columns, strict=True)],
     )
-    return replace(found, estimate=stepped, residuals=_moved(found, moves), zeroed=None)
+    moved = {name: found.moved(name, move) for name, move in zip(found.residuals, moves, strict=True)}
+    return replace(found, estimate=stepped, residuals=moved, zeroed=None)
 
 
 def _columns(found: Fit) -> list[np.ndarray]:
@@ -78,16 +79,4 @@ def _columns(found: Fit) -> list[np.ndarray]:
             weight = weights[column]
             own[k * len(weight) : (k + 1) * len(weight), k] = weight / found.level[column]
         result.append(own)
-    return result
-
-
-def _moved(found: Fit, moves: list[np.ndarray]) -> dict[str, dict[str, np.ndarray]]:
-    """The residuals in SI, moved as the weighted ones are."""
-    result = {}
-    for (name, residuals), move in zip(found.residuals.items(), moves, strict=True):
-        result[name] = {}
-        for k, (column, noise) in enumerate(found.noise.items()):
-            own, weight = residuals[column], found.weights[name][column] / (noise.std * found.level[column])
-            change = move[k * len(own) : (k + 1) * len(own)]
-            result[name][column] = own + np.divide(change, weight, out=np.zeros_like(own), where=weight > 0)
     return result

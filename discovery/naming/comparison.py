@@ -120,9 +120,8 @@ def score(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> flo
 def rival_score(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> float:
     """The score among rivals: beside errors of the sensors' zeros, which a law must not have stood for; errors of
     sensors themselves are weighed as they are."""
-    if candidate.attachment.variable:
-        return score(candidate, base, correlation)
-    return score(replace(candidate, fit=beside_zeros(candidate.fit)), beside_zeros(base), correlation)
+    own, before = (_for_rivals(candidate, f) for f in (candidate.fit, base))
+    return score(replace(candidate, fit=own), before, correlation)
 
 
 def ranked_beside_zeros(ranked: list[Ranked], base: Fit, correlation: dict[str, float]) -> list[Ranked]:

@@ -29,20 +29,13 @@ def left_out(case: Case, found: Fit) -> dict[str, float]:
 def left_out_residuals(found: Fit) -> dict[str, dict[str, np.ndarray]]:
     """Measured minus told (n,), SI, by recording and column."""
     estimate = found.estimate
-    result = {name: dict(columns) for name, columns in found.residuals.items()}
     if not estimate.jacobian:
-        return result
-    for k, rows in _parts(found):
+        return found.residuals
+    moves = [np.zeros_like(residuals) for residuals in estimate.residuals]
+    for k, rows in _parts(found):  # no row is in two
         block, error = estimate.jacobian[k][rows], estimate.residuals[k][rows]
-        move = np.zeros(len(estimate.residuals[k]))
-        move[rows] = block @ _moved(estimate.normal, block, error)
-        name = list(found.residuals)[k]
-        for n, (column, noise) in enumerate(found.noise.items()):
-            own = result[name][column]
-            weight = found.weights[name][column] / (noise.std * found.level[column])
-            change = move[n * len(own) : (n + 1) * len(own)]
-            result[name][column] = own + np.divide(change, weight, out=np.zeros_like(own), where=weight > 0)
-    return result
+        moves[k][rows] = block @ _step(estimate.normal, block, error)
+    return {name: found.moved(name, move) for name, move in zip(found.residuals, moves, strict=True)}
 
 
 def _parts(found: Fit) -> Iterator[tuple[int, np.ndarray]]:
@@ -54,7 +47,7 @@ def _parts(found: Fit) -> Iterator[tuple[int, np.ndarray]]:
         yield from ((k, whole[np.isin(whole % samples, piece)]) for piece in pieces)
 
 
-def _moved(normal: np.ndarray, block: np.ndarray, error: np.ndarray) -> np.ndarray:
+def _step(normal: np.ndarray, block: np.ndarray, error: np.ndarray) -> np.ndarray:
     """Step (p,) in scaled coordinates from the fit to that without the rows of `block`, in directions that the rest
     tells."""
     size = np.sqrt(np.maximum(np.diag(normal), 1e-300))

@@ -72,7 +72,7 @@ def connectors_in_shape(ref: ast.Ref, scope: Scope) -> tuple[list[Connector], tu
 
 def _refuse_deep(ref: ast.Ref, scope: Scope) -> None:
     """Modelica 3.6, 9.1: a connector of the model itself or of one of its components, no deeper."""
-    node = scope.instance.meant(ref.names[0]) if scope.instance is not None else None
+    node = scope.instance.meant(ref.names[0])
     for at, name in enumerate(ref.names[1:], 1):
         first = node.items[0] if isinstance(node, ArrayNode) and node.items else node
         if at > 1 and isinstance(first, Instance) and not is_connector(first):
@@ -83,7 +83,7 @@ def _refuse_deep(ref: ast.Ref, scope: Scope) -> None:
 
 def is_outside(ref: ast.Ref, scope: Scope) -> bool:
     """Does the name mean a connector of the model itself?"""
-    node = scope.instance.meant(ref.names[0]) if scope.instance is not None else None
+    node = scope.instance.meant(ref.names[0])
     if isinstance(node, ArrayNode):
         if not node.items:
             return False

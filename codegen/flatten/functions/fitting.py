@@ -48,11 +48,11 @@ def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:
         each = f"for each element: {{f({local.name}) for {local.name} in array}}"
         raise Diagnostic("R062", message, span, "both need the same size" if sizes else each)
     items = [typed(item, local.type.primitive, local.name, span) for item in scalars(value)]
-    require_enumeration(local.name, local.type, scalars(value), scope.context, span)
+    _require_enumeration(local.name, local.type, scalars(value), scope.context, span)
     return Array(sizes, tuple(items)) if isinstance(value, Array) else items[0]
 
 
-def require_enumeration(name: str, kind: Type, items: Iterable[Expr | str], context: Context, span: Span) -> None:
+def _require_enumeration(name: str, kind: Type, items: Iterable[Expr | str], context: Context, span: Span) -> None:
     """Raises R025 for a value of one enumeration where a number or another is declared, or the reverse (4.9.5)."""
     wanted = (kind.cls.origin or kind.cls).path if kind.literals and kind.cls is not None else ""
     for item in items:
@@ -71,7 +71,7 @@ def conform(old: Value, value: Value, span: Span, name: str, kind: Type, context
     if kind.primitive is None or holds_records(old):
         return value
     items = [typed(item, kind.primitive, name, span) for item in scalars(value)]
-    require_enumeration(name, kind, items, context, span)
+    _require_enumeration(name, kind, items, context, span)
     return Array(old.shape, tuple(items)) if isinstance(old, Array) else items[0]
 
 
