@@ -196,7 +196,7 @@ def _source_at(law: Law, place: sites.Site) -> str:
 
 def _with_states(text: str) -> tuple[str, States]:
     """A law's text with a variable in the place of each quantity that has a memory, and what these are."""
-    text, lags = _named(text, r"\b(lag|warmth)\(([^,]+), ([^,)]+)\)", "lagged")
+    text, lags = _named(text, r"\b(lag|warmth|total|spent)\(([^,]+), ([^,)]+)\)", "lagged")
     text, late = _named(text, r"\b(delay|onset)\(([^,]+), ([^,)]+), ([^,)]+)\)", "late")
     text, swings = _named(text, r"\bswing\(([^,]+), ([^,)]+), ([^,)]+)\)", "swing")
     text, bounds = _named(text, r"\bbounded\(([^,]+), ([^,)]+)\)", "beyond")

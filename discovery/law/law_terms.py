@@ -2,7 +2,8 @@
 
 A term's text is Modelica and is evaluated along a trajectory from that same text, so what is screened is what will be
 simulated. `{p}`, `{k}`, `{tau}` and `{omega}` stand for shape parameters, which a fit may move. `lag(x, tau)` is x
-behind a first-order lag that begins at rest: a state of the law's own; `warmth(x, tau)` begins cold, at nothing.
+behind a first-order lag that begins at rest: a state of the law's own; `warmth(x, tau)` begins cold, at nothing, as
+does `total(x, tau)`, all of x since the start, over tau, and `spent(x, tau)`, the share of what x uses up that is gone.
 `swing(x, w, z)` is what a mass on a spring of its own does to what moves at x, over that mass times w: the stretch of
 the spring, and its damper, of damping ratio z. `delay(x, late, apart)` is x as it was, kept in samples so far apart;
 before the start it was what it is there, or nothing: `onset(x, late, apart)`. `dry(x)` truly sticks: it has modes and
@@ -122,7 +123,9 @@ def evaluate(text: str, trajectory: Mapping[str, np.ndarray], sizes: Mapping[str
     names = {**_FUNCTIONS, **trajectory, **{f"{n}_ref": s for n, s in sizes.items()}}
     time = trajectory["time"]
     names["lag"] = lambda values, tau: lagged(time, values, tau)
-    names["warmth"] = lambda values, tau: lagged(time, values, tau) - values[0] * np.exp((time[0] - time) / tau)
+    names["warmth"] = lambda values, tau: warmed(time, _everywhere(values, time), tau)
+    names["total"] = lambda values, tau: total(time, _everywhere(values, time)) / tau
+    names["spent"] = lambda values, tau: -np.expm1(-total(time, _everywhere(values, time)) / tau)
     names["bounded"] = lambda values, q: values - np.clip(values, -q, q)
     names["swing"] = lambda values, w, z: swinging(time, values, w, z)
     names["hysteresis"] = lambda values, t: bent(time, values, t)
@@ -131,7 +134,11 @@ def evaluate(text: str, trajectory: Mapping[str, np.ndarray], sizes: Mapping[str
         np.interp(time - late, time, values) * np.clip((time - time[0] - late) / apart + 0.5, 0, 1)
     )
     value = eval(_compiled(text), {"__builtins__": {}}, names)
-    return np.broadcast_to(np.asarray(value, float), trajectory["time"].shape)
+    return _everywhere(value, time)
+
+
+def _everywhere(values: np.ndarray | float, time: np.ndarray) -> np.ndarray:
+    return np.broadcast_to(np.asarray(values, float), time.shape)
 
 
 @lru_cache(maxsize=4096)
@@ -150,6 +157,16 @@ def lagged(time: np.ndarray, values: np.ndarray, tau: complex) -> np.ndarray:
         state = keep * state + more
         result.append(state)
     return np.array(result)
+
+
+def warmed(time: np.ndarray, values: np.ndarray, tau: float) -> np.ndarray:
+    """(n,) of values (n,) behind a first-order lag that begins at nothing."""
+    return lagged(time, values, tau) - values[0] * np.exp((time[0] - time) / tau)
+
+
+def total(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """(n,) integral of values (n,) from the start, by trapezoids."""
+    return np.concatenate([[0.0], np.cumsum(np.diff(time) * (values[1:] + values[:-1]) / 2)])
 
 
 def swinging(time: np.ndarray, values: np.ndarray, w: float, z: float) -> np.ndarray:

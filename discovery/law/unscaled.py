@@ -10,6 +10,7 @@ import re
 
 _SAID = {"dry": "sign", "onset": "delay", "warmth": "lag"}  # that differ in how they are simulated, or begin
 _LINEAR = ("lag", "warmth", "delay", "onset", "swing")  # in their first argument
+_ACCUMULATED = ("total", "spent")
 _X = r"(?P<x>\((?:[^()]|\([^()]*\))*\))"  # what is made dimensionless
 _PLAINER = (  # what is smooth for a fit, as it is thought of: (of a term, as it is said)
     (rf"abs\({_X} - (?P<q>\w+)\) \+ (?P=x) - (?P=q)", r"2*max(0, \g<x> - \g<q>)"),
@@ -103,12 +104,23 @@ def _called(name: str, arguments: list[_Scaled]) -> _Scaled:
     if first.of is not None and name in _LINEAR:
         kept = rest[:1] if name in ("delay", "onset") else rest  # how far apart it is kept is of no interest
         return _Scaled(first.factor, _call(name, first.of, *(p.node() for p in kept)))
+    if name in _ACCUMULATED or (name == "warmth" and first.of is None):
+        return _accumulated(name, first, rest[0])
     if first.of is not None and name == "hysteresis":  # what is dragged along, and on which way it is bent
         return _Scaled(first.sign, _call(name, first.of, _number(rest[0].factor / abs(first.factor))))
     if name in ("max", "min"):
         share = _common(arguments)
         return _Scaled(share, _call(name, *(_part(p, share) for p in arguments)))
     return _Scaled(1.0, _call(name, *(p.node() for p in arguments)))
+
+
+def _accumulated(name: str, first: _Scaled, time: _Scaled) -> _Scaled:
+    """What has come together since the start; of nothing but time, the time since then."""
+    done = ast.Name("elapsed") if first.of is None else _call("integral", first.of)
+    if name == "total":
+        return _Scaled(first.factor / time.factor, done)
+    gone = ast.UnaryOp(ast.USub(), ast.BinOp(done, ast.Div(), _number(time.factor / first.factor)))
+    return _Scaled(1.0, ast.BinOp(_number(1.0), ast.Sub(), _call("exp", gone)))
 
 
 def _common(parts: Sequence[_Scaled]) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 import re
 from types import SimpleNamespace
 
@@ -17,7 +18,7 @@ from lacuna.discovery.efforts.places.sites import MOST
 from lacuna.discovery.efforts.places.sites import Site as Place
 from lacuna.discovery.law.empirical_law import free_of
 from lacuna.discovery.law.law import Law, Site, attach
-from lacuna.discovery.law.law_terms import Group, Variable, evaluate
+from lacuna.discovery.law.law_terms import Group, Variable, evaluate, total
 from lacuna.discovery.law.unscaled import unscaled
 
 TIME = np.linspace(0, 10, 201)
@@ -164,7 +165,7 @@ def test_every_term_is_said_without_the_sizes_of_its_variables() -> None:
     sizes = {v.local: v.size for v in kept}
     ranges = {n: (float(c.min()) / sizes[n], float(c.max()) / sizes[n]) for n, c in paths.items() if n != "time"}
     place = Site(Place("equation", "C1*der(T1) = P - q"), "T1", "W", tuple(kept))
-    extremes = {"max": np.maximum, "min": np.minimum}
+    extremes = {"max": np.maximum, "min": np.minimum, "elapsed": TIME - TIME[0], "integral": partial(total, TIME)}
     for group in groups(kept, ranges, 0.05, 10.0):
         law = Law(place, (group,))
         start = {n: s.start for n, s in law.shapes().items()} | {c: 1.0 for c, _, _ in law.numbered()}

@@ -1,4 +1,5 @@
-"""Terms with states of their own: what relaxes, swings, arrives late or warms behind a variable. Texts are Modelica."""
+"""Terms with states of their own: what relaxes, swings, arrives late, warms or ages behind a variable. Texts are
+Modelica."""
 
 from __future__ import annotations
 
@@ -52,12 +53,15 @@ def late(v: Variable, interval: float, duration: float) -> list[Group]:
     return result
 
 
-def varying(v: Variable, interval: float, duration: float) -> list[Group]:
-    """A coefficient that varies with what it has carried of late, as a winding's resistance does when it warms; where
-    that goes through the place itself, the coefficient, too."""
-    warm = f"warmth({v.scaled}^2, {{t}})"
-    texts = [f"{v.scaled}*{warm}", *([warm] if v.kind == "through" else [])]
-    return [Group((text,), (s,)) for text in texts for s in _times(interval, duration)]
+def ageing(factor: str, done: Sequence[str], interval: float, duration: float) -> list[Group]:
+    """What has changed by what was done since the start, any of so many quantities, and is in proportion to a factor
+    ("" for a coefficient by itself): a winding that is warm, a filter that clogs by all that went through, a surface
+    that fouls up to what the flow tears off again, a catalyst that is spent, a rubber that softens along its way."""
+    whole = Shape("t", "s", duration / 3, interval, 9 * duration, (), 0.6 * duration / 3)
+    kinds = [("total", (), f"{duration:.6g}"), *(("warmth", (s,), "{t}") for s in _times(interval, duration))]
+    kinds += [("spent", (replace(whole, start=t, step=0.6 * t),), "{t}") for t in (duration / 9, duration / 3)]
+    behind = factor and f"{factor}*"
+    return [Group((f"{behind}{kind}({g}, {t})",), shapes) for g in done for kind, shapes, t in kinds]
 
 
 def _times(interval: float, duration: float) -> list[Shape]:

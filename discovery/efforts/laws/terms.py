@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from lacuna.discovery.efforts.laws.lagging import late, remembering, swinging, varying
+from lacuna.discovery.efforts.laws.lagging import ageing, late, remembering, swinging
 from lacuna.discovery.law.law_terms import DRY, EXPONENTS, Group, Shape, Variable, exponent, stribeck
 
 LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers
@@ -28,7 +28,6 @@ def groups(
     (s) those of the samples and of the longest recording."""
     result = [Group(("1",))]
     result += [g for v in found if v.kind == "unheld" for g in _bounded(v)]
-    result += [g for v in found if v.kind == "through" for g in varying(v, interval, duration)]
     common = [v for v in found if v.kind not in ("recording", "unheld", "through")]
     for v in common:
         result += remembering(v, common, interval, duration) if v.kind not in ("rate", "above") else []
@@ -44,7 +43,8 @@ def groups(
         free = next((w for w in found if w.kind == "unheld" and w.name == f"der({v.name})"), None)
         result += [g for rate in common if rate.name == f"der({v.name})" for g in _humped(v, rate, free, low, high)]
         if v.kind == "state":
-            result += _waves(v, high - low) + _turning(v, high - low) + varying(v, interval, duration)
+            result += _waves(v, high - low) + _turning(v, high - low)
+    result += _aged(found, common, ranges, interval, duration)
     plain = [v for v in common if v.kind not in ("apart", "above")]
     for a in plain:
         for b in plain:
@@ -52,6 +52,23 @@ def groups(
                 both = a.kind != "rate" and a.local > b.local
                 result += _together(a, b, ranges, not both)
     return result + [g for v in found if v.kind == "recording" for g in _in_proportion(v, result)]
+
+
+def _aged(
+    found: Sequence[Variable], common: Sequence[Variable], ranges: dict[str, tuple[float, float]], interval: float,
+    duration: float,
+) -> list[Group]:  # fmt: skip
+    """Coefficients of one variable, or by themselves, that change with what another, time alone, or what goes through
+    the place itself has done."""
+
+    def done(v: Variable) -> list[str]:
+        return [v.scaled if ranges[v.local][0] >= 0 else f"abs{v.scaled}", f"{v.scaled}^2"]
+
+    does = [v for v in common if v.kind not in ("rate", "above") and not v.switch]
+    every = ["1", *(g for v in does for g in done(v))]
+    result = [g for factor in ("", *(v.scaled for v in does)) for g in ageing(factor, every, interval, duration)]
+    own = [v for v in found if v.kind == "through"]
+    return result + [g for v in own for f in ("", v.scaled) for g in ageing(f, done(v), interval, duration)]
 
 
 def _bounded(v: Variable) -> list[Group]:

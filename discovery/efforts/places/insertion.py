@@ -10,12 +10,15 @@ from lacuna.discovery.catalogue.catalogue import Effect, EffectParameter
 from lacuna.discovery.efforts.places.sites import Site
 
 Signal = tuple[str, str, str]  # name in the component, expression of the model, unit
-Lag = tuple[str, str, str, str]  # name of a state of the component, lag | warmth, what it follows, its time constant
+Lag = tuple[
+    str, str, str, str
+]  # name of a state of the component, one of _FOLLOWER, what it follows, its time constant
 Late = tuple[str, str, str, str, str]  # a variable, delay | onset, what arrives in it, how late, kept how far apart
 Swing = tuple[str, str, str, str]  # a variable, what it swings behind, its natural frequency and damping ratio
 Bristle = tuple[str, str, str]  # the bend of it, what drags it along, the time it takes to bend at one of that
 Bound = tuple[str, str, str]  # a variable, the rate that it holds, the limit of that
 
+_FOLLOWER = {"lag": ", late", "warmth": ", late", "total": ", all since the start", "spent": " has used up"}
 KEPT = 128  # samples of what is late: the interpolation between them is off by less than a thousandth of a slow wave
 
 
@@ -31,7 +34,7 @@ class States:
     sticking: Sequence[str] = ()
 
     def declarations(self) -> list[str]:
-        lines = [f'  Real {state} "{followed}, late";' for state, _, followed, _ in self.lags]
+        lines = [line for lag in self.lags for line in _follower(*lag)]
         lines += [f'  Real {n}, stretch_{n}, behind_{n} "What swings behind {x}";' for n, x, *_ in self.swings]
         lines += [f'  Real {bend} "Bend of bristles along {along}";' for bend, along, _ in self.bristles]
         for n, rate, _ in self.bounds:
@@ -50,7 +53,7 @@ class States:
 
     def equations(self) -> list[str]:
         lines = [line for quantity in self.late for line in _arrives(*quantity[:4])]
-        lines += [f"  {time}*der({state}) = {followed} - {state};" for state, _, followed, time in self.lags]
+        lines += [_follows(*lag) for lag in self.lags]
         lines += [line for swing in self.swings for line in _swings(*swing)]
         lines += [f"  {t}*der({bend}) = {y} - noEvent(abs({y}))*{bend};" for bend, y, t in self.bristles]
         lines += [line for bound in self.bounds for line in _holds(*bound)]
@@ -81,6 +84,17 @@ def component(
     lines += [*states.declarations(), *states.beginning(), "equation", *states.equations()]
     lines += [f"  {equation}" for equation in does]
     return "\n".join([*lines, f"end {name};"])
+
+
+def _follower(state: str, kind: str, followed: str, time: str) -> list[str]:
+    lines = [f'  Real {state} "{followed}{_FOLLOWER[kind]}";']
+    return [*lines, f'  constant Real over_{state}(unit="s") = {time};'] if kind == "total" else lines
+
+
+def _follows(state: str, kind: str, followed: str, time: str) -> str:
+    x = f"noEvent({followed})" if "abs(" in followed else followed
+    does = {"total": x, "spent": f"{x}*(1 - {state})"}.get(kind, f"{x} - {state}")
+    return f"  {f'over_{state}' if kind == 'total' else time}*der({state}) = {does};"
 
 
 def _kept(name: str, begins: str, followed: str, late: str, apart: str) -> list[str]:
