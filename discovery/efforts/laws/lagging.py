@@ -17,10 +17,12 @@ OCTAVES = 3.0  # from one time constant of a relaxation to the next: half a band
 
 def remembering(v: Variable, found: Sequence[Variable], interval: float, duration: float) -> list[Group]:
     """A relaxation: storage behind a resistance, a damper behind a spring, a winding around a core, besides what is
-    believed to be stored or a part of it, then behind the resistance; no faster than samples, no slower than a run."""
-    times, relaxing = _times(interval, duration), f"({v.scaled} - lag({v.scaled}, {{t}}))"
+    believed to be stored or a part of it, then behind the resistance; no faster than samples, no slower than a run. At
+    rest at the start, or empty, as one that has just been added to."""
+    times, behind = _times(interval, duration), ("lag", "warmth")
+    relaxing = [f"({v.scaled} - {kind}({v.scaled}, {{t}}))" for kind in behind]
     part = [w.scaled for w in found if w.name == f"der({v.name})"]
-    return [Group((relaxing, *p), (s,)) for p in ([], part)[: 1 + len(part)] for s in times]
+    return [Group((r, *p), (s,)) for r in relaxing for p in ([], part)[: 1 + len(part)] for s in times]
 
 
 def swinging(v: Variable, found: Sequence[Variable], interval: float, duration: float) -> list[Group]:

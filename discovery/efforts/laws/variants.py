@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 import re
 
 from lacuna.discovery.law.law import Law
@@ -13,10 +12,11 @@ from lacuna.discovery.law.law_terms import DRY, Group, Shape, Variable, exponent
 def varied(best: Proposal) -> list[Proposal]:
     """A fitted law with any exponent in the place of one that physics has, with dry friction that truly sticks in that
     of a steep one, with one that falls from rest on in that of a level one, with a sign as steep as the data says, with
-    a zero elsewhere of what divides it, or with a storage that begins empty; one group at a time."""
+    a zero elsewhere of what divides it, or with less and less of what has changed by what was done; one group at a
+    time."""
     law, values = best.law, best.candidate.attachment.own_values(best.candidate.fit.point)
     found = [*stuck(law, values), *_falling(law, values), *_steep(law, values), *_from_elsewhere(law, values)]
-    found += _empty(law, values)
+    found += _yielding(law, values)
     for n, group in enumerate(law.groups):
         text = group.texts[0]
         linear = re.fullmatch(r"\((\w+)/\w+_ref\)", text)
@@ -42,15 +42,16 @@ def _from_elsewhere(law: Law, values: dict[str, float]) -> list[Proposal]:
     return found
 
 
-def _empty(law: Law, values: dict[str, float]) -> list[Proposal]:
-    """The law with what lags behind at nothing at first, in the place of at rest: a storage that has just been added to
-    is empty, whatever it lies behind."""
+def _yielding(law: Law, values: dict[str, float]) -> list[Proposal]:
+    """The law with a coefficient that changes less and less by what was done: a surface whose deposit lies behind its
+    own resistance; at first by a quarter less at its largest."""
     found = []
     for n, group in enumerate(law.groups):
-        texts = tuple(text.replace(" - lag(", " - warmth(") for text in group.texts)
-        if texts != group.texts:
-            groups = (*law.groups[:n], replace(group, texts=texts), *law.groups[n + 1 :])
-            found.append(Proposal(Law(law.site, groups), values))
+        text = group.texts[0]
+        if len(group.texts) == 1 and re.search(r"\b(warmth|total|spent)\(", text) and "{q}" not in text:
+            less = Group((f"{text}/(1 + {{q}}*abs({text}))",), (*group.shapes, Shape("q", "1", 0.3, 1e-3, 1e3)))
+            groups = (*law.groups[:n], less, *law.groups[n + 1 :])
+            found.append(Proposal(Law(law.site, groups), values | {f"q_{n + 1}": 0.3}))
     return found
 
 
