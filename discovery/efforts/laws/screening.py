@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from itertools import chain
+from itertools import chain, islice
 
 import numpy as np
 
@@ -233,9 +233,10 @@ def _doubled(regression: Regression, single: list[tuple[int, ...]], every: range
     kinds: dict[frozenset, tuple[int, ...]] = {}
     for key in sorted(scored, key=lambda k: scored[k]):
         kinds.setdefault(frozenset(regression.groups[g].kind for g in key), key)
-    likely = [pair for pair in kinds.values() if regression.strain(pair) < 1]
+    likely = (pair for pair in kinds.values() if regression.strain(pair) < 1)  # asked of the best alone: it takes long
     kept = [pair for _, _, pair in _distinct(((scored[p], regression, p) for p in likely), PAIRS)]
-    kept += [pair for pair in likely if level[0] in pair and pair not in kept][:1]
+    from_a_level = (pair for pair in kinds.values() if level[0] in pair and pair not in kept)
+    kept += islice((pair for pair in from_a_level if regression.strain(pair) < 1), 1)
     better = _refined_pairs(regression, [(pair, scored[pair]) for pair in kept])
     return [pair for pair, _ in sorted(better, key=lambda b: b[1])]
 
