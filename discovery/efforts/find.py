@@ -170,11 +170,22 @@ def simplest(sites: list[Site]) -> list[Site]:
 
 
 def _put(laws: list[Candidate], law: Candidate | None, base: Fit) -> None:
-    """Add a law to others, best first."""
-    if law is not None:
-        laws.append(law)
-        correlation = min((c.fit for c in laws), key=lambda f: f.deviance()).correlation()
-        laws.sort(key=lambda c: rival_score(c, base, correlation))
+    """Add a law to others, best first; of one course in one balance and at all places of a family, as good as one
+    another, the one in the balance: nothing tells it of the others."""
+    if law is None:
+        return
+    laws.append(law)
+    correlation = min((c.fit for c in laws), key=lambda f: f.deviance()).correlation()
+    scores = {id(c): rival_score(c, base, correlation) for c in laws}
+    laws.sort(key=lambda c: scores[id(c)])
+    alone = [c for c in laws if not c.attachment.site.members]
+    laws[:] = [
+        c for c in laws
+        if not c.attachment.site.members or not any(
+            one.attachment.law.course() == c.attachment.law.course() and scores[id(one)] < scores[id(c)] + TIE
+            for one in alone
+        )
+    ]  # fmt: skip
 
 
 def _ranked(locator: Locator, base: Fit) -> list[Site]:

@@ -1,9 +1,10 @@
 """A fit beside errors of the sensors' zeros, to first order: without another simulation.
 
 A zero is set by a reading and errs by as much as one does. Over thousands of samples that is far more than hypotheses
-differ by: of two forms of one law the richer one, or one with a level, takes the zero of a sensor upon itself. So
-rivals are compared beside zeros, a parameter for each sensor with the noise of a sample for its belief. To first order
-they are one step of Gauss and Newton from the fit, and exact where the outputs are linear in the parameters.
+differ by: of two forms of one law the richer one, or one with a level, takes the zero of a sensor upon itself, and one
+that grows with time its drift. So rivals are compared beside zeros, a parameter for each sensor with the noise of a
+sample for its belief, and beside how each drifts along each recording, from minus one to plus one of that. To first
+order they are one step of Gauss and Newton from the fit, and exact where the outputs are linear in the parameters.
 """
 
 from __future__ import annotations
@@ -17,8 +18,8 @@ from lacuna.discovery.fit.solver.free import Free, clipped, pulls
 
 
 def beside_zeros(found: Fit) -> Fit:
-    """The fit with a zero (units of its noise) of each output among its parameters; the same one where it has no
-    Jacobian."""
+    """The fit with a zero (units of its noise) of each output, and its drifts, among its parameters; the same one where
+    it has no Jacobian."""
     estimate = found.estimate
     if not estimate.jacobian:
         return found
@@ -32,8 +33,8 @@ def zeros_of(found: Fit) -> dict[str, float]:
     beside = beside_zeros(found)
     if beside is found:
         return dict.fromkeys(found.noise, 0.0)
-    values = beside.estimate.values[-len(found.noise) :]
-    return {c: float(z) * n.std for (c, n), z in zip(found.noise.items(), values, strict=True)}
+    values = beside.estimate.values[len(found.estimate.free) :]
+    return {c: float(z) * n.std for (c, n), z in zip(found.noise.items(), values, strict=False)}
 
 
 def _stepped(found: Fit) -> Fit:
@@ -43,7 +44,7 @@ def _stepped(found: Fit) -> Fit:
     inside = np.flatnonzero([not estimate.at_bound(f.name) for f in estimate.free])
     normal = every[np.ix_(inside, inside)]
     cross = sum(j[:, inside].T @ z for j, z in zip(estimate.jacobian, columns, strict=True))
-    own = sum(z.T @ z for z in columns) + np.eye(len(found.noise))
+    own = sum(z.T @ z for z in columns) + np.eye(columns[0].shape[1])
     shift = np.linalg.lstsq(normal, cross, rcond=None)[0]  # of the parameters, by each zero
     load = sum(z.T @ r for z, r in zip(columns, estimate.residuals, strict=True))
     zeros = np.linalg.solve(own - cross.T @ shift, load)
@@ -51,7 +52,9 @@ def _stepped(found: Fit) -> Fit:
     values[inside] += np.array([estimate.free[k].scale for k in inside]) * (shift @ zeros)
     moves = [j[:, inside] @ (shift @ zeros) - z @ zeros for j, z in zip(estimate.jacobian, columns, strict=True)]
     residuals = [r + m for r, m in zip(estimate.residuals, moves, strict=True)]
-    free = [*estimate.free, *(Free(f"zero of {c}", 0.0, 1.0, sigma=1.0) for c in found.noise)]
+    names = [f"zero of {c}" for c in found.noise]
+    names += [f"drift of {c} in {name}" for name in found.residuals for c in found.noise]
+    free = [*estimate.free, *(Free(name, 0.0, 1.0, sigma=1.0) for name in names)]
     values = np.append(clipped(estimate.free, values), zeros)
     data_cost = float(sum(r @ r for r in residuals))
     whole = np.zeros((len(estimate.free), len(zeros)))
@@ -71,12 +74,15 @@ def _stepped(found: Fit) -> Fit:
 
 
 def _columns(found: Fit) -> list[np.ndarray]:
-    """What the weighted residual (n, outputs) of each recording falls by with each zero."""
-    result = []
-    for part, weights in zip(found.estimate.residuals, found.weights.values(), strict=True):
-        own = np.zeros((len(part), len(found.noise)))
+    """What the weighted residual (n, outputs) of each recording falls by with each zero, and with each drift along each
+    recording."""
+    result, count = [], len(found.noise)
+    for r, (part, weights) in enumerate(zip(found.estimate.residuals, found.weights.values(), strict=True)):
+        own = np.zeros((len(part), count * (1 + len(found.weights))))
         for k, column in enumerate(found.noise):
             weight = weights[column]
-            own[k * len(weight) : (k + 1) * len(weight), k] = weight / found.level[column]
+            rows, zero = slice(k * len(weight), (k + 1) * len(weight)), weight / found.level[column]
+            own[rows, k] = zero
+            own[rows, count * (1 + r) + k] = zero * np.linspace(-1.0, 1.0, len(weight))
         result.append(own)
     return result

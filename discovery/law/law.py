@@ -65,6 +65,13 @@ class Law:
     def references(self) -> list[Variable]:
         return [v for v in self.site.variables if f"{v.local}_ref" in self.text()]
 
+    def course(self) -> str:
+        """The right-hand side in variables of the model, its numbers as names."""
+        whole = self.text()
+        for v in self.references():
+            whole = _renamed(whole.replace(v.scaled, v.reading), v.local, v.reading)
+        return whole
+
     def expression(self, values: Mapping[str, float]) -> str:
         """The law in variables of the model, with its numbers; `values` by the component's own names."""
         known = dict(values) | {f"{v.local}_ref": v.size for v in self.site.variables}

@@ -31,6 +31,7 @@ DRY = "tanh(50*{x})"  # the sign of a variable, smooth over two per cent of its 
 ORDERS = (0.5, 1, 1.5, 2, 3, 4, 5, 6, 8, 10, 12)  # per turn
 TIMES = (0.1, 0.3, 1.0)  # of the longest recording: time constants of what fades or drifts
 EXPONENTS = (0.5, 1.5, 2.0, 3.0, 4.0)  # where powers start: flow through an orifice to radiation
+BEYOND = (1.5, 2.0)  # powers of what is beyond a threshold: weirs, contacts
 WHOLE = (1 / 3, 2 / 3, 1.0, 7 / 4, *EXPONENTS, 5.0)  # exponents that are told as such
 HIGHEST = 200.0  # rad/s: fastest vibration that is looked for
 OCTAVE = 1.6  # times pi over the longest recording: spacing of the frequencies that are looked at

@@ -120,6 +120,24 @@ def test_one_law_is_found_in_all_elements_of_an_array(leaking: Path, tmp_path: P
     assert "law_h_2" not in text  # which a law at h[2] alone is called
 
 
+def test_what_only_one_instance_tells_is_told_of_that_one(tmp_path: Path) -> None:
+    """Only the upper tank ever spills: one that spills as all of its class would fits as well."""
+    (tmp_path / "Tanks.mo").write_text(APART.replace("  Tank middle(A=A, k=k, feed=upper.drain);\n", "").replace(
+        "lower(A=A, k=k, feed=middle.drain)", "lower(A=A, k=3*k, feed=upper.drain)"))  # fmt: skip
+    (tmp_path / "case.toml").write_text(CASE.replace('"h[1]"', '"upper.h"').replace('"h[3]"', '"lower.h"'))
+    random = np.random.default_rng(3)
+    for name in ("r1", "r2", "r3", "r4"):
+        h, rows = np.full(2, 0.5), []
+        for k, q in enumerate(np.repeat(random.uniform(0.0, 0.08, 10), 40)):
+            rows.append(f"{k},{q:.6g},{h[0] + random.normal(0, 0.002):.7g},{h[1] + random.normal(0, 0.002):.7g}")
+            for _ in range(20):
+                drains = np.array([0.02, 0.06]) * h
+                h = h + 0.05 * (np.array([q - 0.05 * max(0.0, h[0] - 1.5), drains[0]]) - drains) / 0.5
+        (tmp_path / f"{name}.csv").write_text("\n".join(["time,q,h1,h3", *rows, ""]))
+    found = explain(load(tmp_path))
+    assert (found.verdict, [f.ranked.attachment.location for f in found.findings]) == ("missing_physics", ["upper"])
+
+
 def test_one_law_is_found_in_all_instances_of_a_class(leaking: Path, tmp_path: Path) -> None:
     folder = tmp_path / "apart"
     shutil.copytree(leaking, folder)

@@ -12,13 +12,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from lacuna.discovery.efforts.laws.lagging import ageing, late, remembering, swinging
-from lacuna.discovery.law.law_terms import DRY, EXPONENTS, Group, Shape, Variable, exponent, stribeck
+from lacuna.discovery.law.law_terms import BEYOND, DRY, EXPONENTS, Group, Shape, Variable, exponent, stribeck
 
 LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers
 CYCLES = 30  # of a wave along a variable, over the range that it has
 TURN = 1.6  # rad from one wave number to the next at the ends of the range: so that none is missed
 AWAY = 0.05  # of its largest value, that a variable stays above for laws that divide by it, or hold by it at rest
-BEYOND = (1.5, 2.0)  # powers of what is beyond a threshold: weirs, contacts
 
 
 def groups(

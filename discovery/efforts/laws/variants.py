@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 import re
 
 from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law_screen import Proposal
-from lacuna.discovery.law.law_terms import DRY, Group, Shape, Variable, exponent, stribeck
+from lacuna.discovery.law.law_terms import BEYOND, DRY, Group, Shape, Variable, exponent, stribeck
 
 
 def varied(best: Proposal) -> list[Proposal]:
-    """A fitted law with any exponent in the place of one that physics has, with dry friction that truly sticks in that
-    of a steep one, with one that falls from rest on in that of a level one, with a sign as steep as the data says, with
-    a zero elsewhere of what divides it, or with less and less of what has changed by what was done; one group at a
-    time."""
+    """A fitted law with any exponent in the place of one that physics has, with what is beyond a threshold to another
+    power, with dry friction that truly sticks in that of a steep one, with one that falls from rest on in that of a
+    level one, with a sign as steep as the data says, with a zero elsewhere of what divides it, or with less and less of
+    what has changed by what was done; one group at a time."""
     law, values = best.law, best.candidate.attachment.own_values(best.candidate.fit.point)
     found = [*stuck(law, values), *_falling(law, values), *_steep(law, values), *_from_elsewhere(law, values)]
-    found += _yielding(law, values)
+    found += [*_yielding(law, values), *_beyond(law, values)]
     for n, group in enumerate(law.groups):
         text = group.texts[0]
         linear = re.fullmatch(r"\((\w+)/\w+_ref\)", text)
@@ -52,6 +53,23 @@ def _yielding(law: Law, values: dict[str, float]) -> list[Proposal]:
             less = Group((f"{text}/(1 + {{q}}*abs({text}))",), (*group.shapes, Shape("q", "1", 0.3, 1e-3, 1e3)))
             groups = (*law.groups[:n], less, *law.groups[n + 1 :])
             found.append(Proposal(Law(law.site, groups), values | {f"q_{n + 1}": 0.3}))
+    return found
+
+
+def _beyond(law: Law, values: dict[str, float]) -> list[Proposal]:
+    """The law with what is beyond a threshold to the other powers that physics has: along a run that a smooth effort
+    leads, a sharp bend further on looks like a soft one before it. As much at the end of the range at first."""
+    found = []
+    for n, group in enumerate(law.groups):
+        beyond = re.fullmatch(r"(?:abs)?(\(abs\((.*) - \{q\}\) \+ \2 - \{q\}\))(?:\^([\d.]+))?", group.texts[0])
+        if beyond is None or len(group.texts) > 1:
+            continue
+        end, amount = 2 * (1 - values[f"q_{n + 1}"]), f"c_{1 + sum(len(g.texts) for g in law.groups[:n])}"
+        for power in {1.0, *BEYOND} - {float(beyond[3] or 1.0)}:
+            text = beyond[1] if power == 1.0 else f"abs{beyond[1]}^{power}"
+            groups = (*law.groups[:n], replace(group, texts=(text,)), *law.groups[n + 1 :])
+            start = values | {amount: values[amount] * end ** (float(beyond[3] or 1.0) - power)}
+            found.append(Proposal(Law(law.site, groups), start))
     return found
 
 
