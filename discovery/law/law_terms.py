@@ -21,6 +21,7 @@ import re
 from types import CodeType
 
 import numpy as np
+from scipy.signal import lfilter
 
 from lacuna.discovery.efforts.places.families import meant
 
@@ -33,6 +34,7 @@ TIMES = (0.1, 0.3, 1.0)  # of the longest recording: time constants of what fade
 EXPONENTS = (0.5, 1.5, 2.0, 3.0, 4.0)  # where powers start: flow through an orifice to radiation
 BEYOND = (1.5, 2.0)  # powers of what is beyond a threshold: weirs, contacts
 WHOLE = (1 / 3, 2 / 3, 1.0, 7 / 4, *EXPONENTS, 5.0)  # exponents that are told as such
+EQUAL = 1e-9  # share by which what is kept from sample to sample may vary: rounding of their times
 HIGHEST = 200.0  # rad/s: fastest vibration that is looked for
 OCTAVE = 1.6  # times pi over the longest recording: spacing of the frequencies that are looked at
 
@@ -153,6 +155,9 @@ def lagged(time: np.ndarray, values: np.ndarray, tau: complex) -> np.ndarray:
     mean = (1 - keeps) / (np.diff(time) / tau)  # of what is kept over an interval
     added = (1 - mean) * values[1:] + (mean - keeps) * values[:-1]
     state = values[0].item()
+    if np.ptp(keeps) <= EQUAL * abs(keeps[0]):
+        behind, _ = lfilter([1.0], [1.0, -keeps[0]], added, zi=[keeps[0] * state])
+        return np.concatenate([[state], behind])
     result = [state]
     for keep, more in zip(keeps.tolist(), added.tolist(), strict=True):
         state = keep * state + more

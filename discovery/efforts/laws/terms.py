@@ -17,6 +17,7 @@ from lacuna.discovery.law.law_terms import BEYOND, DRY, EXPONENTS, Group, Shape,
 LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers
 CYCLES = 30  # of a wave along a variable, over the range that it has
 TURN = 1.6  # rad from one wave number to the next at the ends of the range: so that none is missed
+NEAREST = 4  # variables at a place whose coefficients change with what others have done: most balances have fewer
 AWAY = 0.05  # of its largest value, that a variable stays above for laws that divide by it, or hold by it at rest
 
 
@@ -57,17 +58,18 @@ def _aged(
     found: Sequence[Variable], common: Sequence[Variable], ranges: dict[str, tuple[float, float]], interval: float,
     duration: float,
 ) -> list[Group]:  # fmt: skip
-    """Coefficients of one variable, or by themselves, that change with what another, time alone, or what goes through
-    the place itself has done."""
+    """Coefficients of one of the nearest variables, or by themselves, that change with what any one has done, with time
+    alone, or with what goes through the place itself; those of others with what these have done."""
 
     def done(v: Variable) -> list[str]:
         return [v.scaled if ranges[v.local][0] >= 0 else f"abs{v.scaled}", f"{v.scaled}^2"]
 
     does = [v for v in common if v.kind not in ("rate", "above") and not v.switch]
     every = ["1", *(g for v in does for g in done(v))]
-    result = [g for factor in ("", *(v.scaled for v in does)) for g in ageing(factor, every, interval, duration)]
     own = [v for v in found if v.kind == "through"]
-    return result + [g for v in own for f in ("", v.scaled) for g in ageing(f, done(v), interval, duration)]
+    behind = [("", every), *((v.scaled, every) for v in does[:NEAREST]), *((v.scaled, done(v)) for v in does[NEAREST:])]
+    behind += [(factor, done(v)) for v in own for factor in ("", v.scaled)]
+    return [g for factor, what in behind for g in ageing(factor, what, interval, duration)]
 
 
 def _bounded(v: Variable) -> list[Group]:
