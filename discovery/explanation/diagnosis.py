@@ -125,7 +125,10 @@ def _positive_phase(parameters: dict[str, dict], name: str) -> None:
 def _places(result: Explanation) -> list[dict[str, Any]]:
     """What was open to a finding: places of the equations and sensors, the most telling first."""
     if result.opened is not None and result.opened.sites:
-        return [{"location": s.location, "kind": s.kind, "explains": s.explains} for s in result.opened.sites]
+        return [
+            {"location": s.location, "kind": s.kind, "explains": s.explains}
+            | ({"at": s.place.sites[0].stands} if s.place else {}) for s in result.opened.sites
+        ]  # fmt: skip
     located = result.located.places if result.located else []
     return [{"location": p.location, "kind": p.kind, "explains": p.explained} for p in located]
 

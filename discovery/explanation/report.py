@@ -46,7 +46,7 @@ _PLACES = (
     "<p>An effort of any course at a place, alone beside the believed model, or an error of a sensor. More than one "
     "law may explain what no single place does. Places that explain less: {more}.</p>"
 )
-_WHAT = {"effort": "an effort there", "sensor": "an error of the sensor"}
+_SENSOR = "an error of the sensor"
 
 
 def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
@@ -164,8 +164,8 @@ def _anywhere(result: Explanation) -> list[str]:
     if drawn := laws_over_efforts(result):
         parts += [_svg(drawn, "What is missing, and the law for it"), _ANY_COURSE]
     sites = result.opened.sites[:MOST]
-    parts.append(_table(["place", "what", "misfit that it could explain"],
-                        [[s.location, _WHAT[s.kind], f"{s.explains:.0%}"] for s in sites]))  # fmt: skip
+    rows = [[s.location, s.place.sites[0].stands if s.place else _SENSOR, f"{s.explains:.0%}"] for s in sites]
+    parts.append(_table(["place", "what acts there", "misfit that it could explain"], rows))
     parts.append(_PLACES.format(more=len(result.opened.sites) - len(sites)))
     if closed := result.opened.closed:
         rows = "".join(f"<li>{escape(label)}: {escape(why)}</li>" for label, why in closed)

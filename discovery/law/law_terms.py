@@ -35,6 +35,7 @@ EXPONENTS = (0.5, 1.5, 2.0, 3.0, 4.0)  # where powers start: flow through an ori
 BEYOND = (1.5, 2.0)  # powers of what is beyond a threshold: weirs, contacts
 WHOLE = (1 / 3, 2 / 3, 1.0, 7 / 4, *EXPONENTS, 5.0)  # exponents that are told as such
 EQUAL = 1e-9  # share by which what is kept from sample to sample may vary: rounding of their times
+AGES = re.compile(r"(?:^|(?<=\*))(?:warmth|total|spent)\((.*), [^,()]+\)$")  # of what was done since the start
 HIGHEST = 200.0  # rad/s: fastest vibration that is looked for
 OCTAVE = 1.6  # times pi over the longest recording: spacing of the frequencies that are looked at
 
@@ -114,6 +115,11 @@ class Group:
     def kind(self) -> tuple[str, ...]:
         """Its texts, but for how far apart what is late is kept: that follows how late it is."""
         return tuple(re.sub(r"\b(delay|onset)\(([^,]+, [^,)]+), [^,)]+\)", r"\1(\2)", text) for text in self.texts)
+
+    @property
+    def ages(self) -> bool:
+        """Whether it is of what was done since the start."""
+        return any(AGES.search(text) for text in self.texts)
 
     def values(self, trajectory: Mapping[str, np.ndarray], sizes: Mapping[str, float]) -> list[np.ndarray]:
         """Each term (n,) along a trajectory (local names and `time`) with its shapes at their starts."""

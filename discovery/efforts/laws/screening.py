@@ -15,12 +15,13 @@ from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.places.place import Place
 from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law_screen import Proposal
-from lacuna.discovery.law.law_terms import DRY, Group, Variable, evaluate
+from lacuna.discovery.law.law_terms import AGES, DRY, Group, Variable, evaluate
 
 Scored = tuple[float, Regression, tuple[int, ...]]  # deviance and prices, groups of a regression
 
 FAMILIES = 12  # kinds of terms whose shapes are refined, and beside which, and a constant, a second one is looked for
 ZOOMS, FINE = 3, 9  # times that a shape is refined, and values each time; each is a quarter of the last one's spacing
+AGED = 2  # laws of what was done since the start that are tried beside others
 PAIRS = 6  # kinds of pairs whose shapes are refined
 SAME = 1e-3  # share of what a law explains, by which another one must differ to be tried beside it
 
@@ -130,13 +131,21 @@ def _best(found: list[tuple[Regression, list[tuple[int, ...]]]], most: int) -> l
     only fits tell."""
     own, *others = (sorted(_scored(r, groups), key=_in_order) for r, groups in found)
     promised = own[0][0] if own else np.inf
-    more = (law for law in sorted(chain.from_iterable(others), key=_in_order) if law[0] < promised)
-    beyond = _distinct(more, most)
-    best = _distinct([*beyond, *own], len(beyond) + most)
+    more = [law for law in sorted(chain.from_iterable(others), key=_in_order) if law[0] < promised]
+    beyond = _distinct((law for law in more if not _ages(law)), most)
+    best = _distinct([*beyond, *(law for law in own if not _ages(law))], len(beyond) + most)
     alone = next((law for law in own if _is_own(law)), None)
     if alone is not None and len(best) >= most > 1 and not any(map(_is_own, best)):
         best[-1] = alone
-    return [_proposal(r, groups) for _, r, groups in best]
+    worst = best[-1][0] if best else np.inf
+    aged = _distinct((law for law in (*more, *own) if _ages(law) and law[0] < worst), AGED)
+    return [_proposal(r, groups) for _, r, groups in sorted([*best, *aged], key=_in_order)]
+
+
+def _ages(law: Scored) -> bool:
+    """Whether a law is of what was done since the start: many such are alike, and leave no others room."""
+    _, regression, chosen = law
+    return any(regression.groups[g].ages for g in chosen)
 
 
 def _in_order(law: Scored) -> tuple[int, int]:
@@ -161,14 +170,15 @@ def _scored(regression: Regression, found: list[tuple[int, ...]]) -> list[Scored
 
 def _distinct(found: Iterable[Scored], most: int) -> list[Scored]:
     """The first `most` that explain different things: |x| beside x, where x has one sign, is the same law again, and so
-    is what is late beside what is late by the same quantity, whatever it was before the start."""
+    is what is late beside what is late by the same quantity, whatever it was before the start, and what has changed by
+    one quantity, however."""
     kept: list[Scored] = []
     courses: list[np.ndarray] = []
     kinds: set[tuple[tuple[int, ...], frozenset[str]]] = set()
     for law in found:
         _, regression, chosen = law
-        texts = (text for g in chosen for text in regression.groups[g].kind)
-        kind = regression.columns, frozenset(text.replace("onset(", "delay(") for text in texts)
+        texts = (text.replace("onset(", "delay(") for g in chosen for text in regression.groups[g].kind)
+        kind = regression.columns, frozenset(AGES.sub(r"aged(\1)", text) for text in texts)
         if kind in kinds:
             continue
         course = regression.explained(chosen)
@@ -196,7 +206,7 @@ def _refined(regression: Regression, every: range, strained: bool = False) -> li
             best[regression.groups[g].kind] = g
     kinds = list(best.values())
     for zoom in range(ZOOMS):
-        finer = [(g, n) for g in kinds[:FAMILIES] for n in _finer(regression.groups[g], zoom)]
+        finer = [(g, n) for g in _foremost(regression, kinds) for n in _finer(regression.groups[g], zoom)]
         if not finer:
             break
         added = regression.add([n for _, n in finer])
@@ -207,6 +217,12 @@ def _refined(regression: Regression, every: range, strained: bool = False) -> li
                 kinds[k] = n
     kinds.sort(key=lambda g: scored[g])
     return [(g,) for g in kinds]
+
+
+def _foremost(regression: Regression, kinds: list[int]) -> list[int]:
+    """The best kinds, and the best of those of what was done since the start."""
+    aged = [g for g in kinds if regression.groups[g].ages]
+    return [*[g for g in kinds if not regression.groups[g].ages][:FAMILIES], *aged[: FAMILIES // 2]]
 
 
 def _finer(group: Group, zoom: int) -> list[Group]:
@@ -225,7 +241,8 @@ def _doubled(regression: Regression, single: list[tuple[int, ...]], every: range
     scored: dict[tuple[int, ...], float] = {}
     finer = [g for (g,) in single if g not in every]
     level = next((g,) for g in every if regression.groups[g].texts == ("1",))
-    beside = [] if is_coefficient(regression.place.place) else single[:FAMILIES]
+    plain = [(g,) for (g,) in single if not regression.groups[g].ages]  # the second may be of what was done
+    beside = [] if is_coefficient(regression.place.place) else plain[:FAMILIES]
     firsts = list(dict.fromkeys([level, *beside]))
     for others in (every, finer):
         for first, scores in zip(firsts, regression.scores_of(firsts, others), strict=True):

@@ -13,11 +13,11 @@ from lacuna.discovery.law.law_terms import BEYOND, DRY, Group, Shape, Variable, 
 def varied(best: Proposal) -> list[Proposal]:
     """A fitted law with any exponent in the place of one that physics has, with what is beyond a threshold to another
     power, with dry friction that truly sticks in that of a steep one, with one that falls from rest on in that of a
-    level one, with a sign as steep as the data says, with a zero elsewhere of what divides it, or with less and less of
-    what has changed by what was done; one group at a time."""
+    level one, with a sign as steep as the data says, with a zero elsewhere of what divides it, or changed otherwise by
+    what was done; one group at a time."""
     law, values = best.law, best.candidate.attachment.own_values(best.candidate.fit.point)
     found = [*stuck(law, values), *_falling(law, values), *_steep(law, values), *_from_elsewhere(law, values)]
-    found += [*_yielding(law, values), *_beyond(law, values)]
+    found += [*_aged(law, values), *_beyond(law, values)]
     for n, group in enumerate(law.groups):
         text = group.texts[0]
         linear = re.fullmatch(r"\((\w+)/\w+_ref\)", text)
@@ -43,16 +43,22 @@ def _from_elsewhere(law: Law, values: dict[str, float]) -> list[Proposal]:
     return found
 
 
-def _yielding(law: Law, values: dict[str, float]) -> list[Proposal]:
-    """The law with a coefficient that changes less and less by what was done: a surface whose deposit lies behind its
-    own resistance; at first by a quarter less at its largest."""
+def _aged(law: Law, values: dict[str, float]) -> list[Proposal]:
+    """The law with a coefficient that changes otherwise by what was done: by less and less of it, or by what is
+    forgotten with time; or behind its own resistance, as a deposit is, at first by a quarter less at its largest."""
     found = []
     for n, group in enumerate(law.groups):
-        text = group.texts[0]
-        if len(group.texts) == 1 and re.search(r"\b(warmth|total|spent)\(", text) and "{q}" not in text:
-            less = Group((f"{text}/(1 + {{q}}*abs({text}))",), (*group.shapes, Shape("q", "1", 0.3, 1e-3, 1e3)))
-            groups = (*law.groups[:n], less, *law.groups[n + 1 :])
-            found.append(Proposal(Law(law.site, groups), values | {f"q_{n + 1}": 0.3}))
+        text, time = group.texts[0], next((s for s in group.shapes if s.name == "t"), None)
+        if not group.ages or len(group.texts) > 1:
+            continue
+        own = [Group((f"{text}/(1 + {{q}}*abs({text}))",), (*group.shapes, Shape("q", "1", 0.3, 1e-3, 1e3)))]
+        if time is not None:
+            kind = "warmth(" if "spent(" in text else "spent("
+            own.append(replace(group, texts=(re.sub(r"\b(warmth|spent)\(", kind, text),)))
+        for other in own:
+            groups = (*law.groups[:n], other, *law.groups[n + 1 :])
+            start = {f"q_{n + 1}": s.start for s in other.shapes if s.name == "q"}
+            found.append(Proposal(Law(law.site, groups), values | start))
     return found
 
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import combinations
+from pathlib import Path
 import re
 
 from lacuna.codegen.errors import Span
@@ -74,6 +75,16 @@ class Site:
         if not self.members or self.term == "@" or self.parts[0].way:
             return None
         return replace(self.parts[0], term=self.term, members=self.members)
+
+    @property
+    def stands(self) -> str:
+        """What tells it from others of its name: what flows together, its equation or connection with the line."""
+        if self.kind == "node":
+            return f"into {', '.join(self.ends)}"
+        if self.kind == "branch":
+            return f"past {self.label}"
+        where = self.span or (self.parts[0].span if self.parts else None)
+        return f"{self.label} ({Path(where.file).name}:{where.line})" if where else self.label
 
     @property
     def sign(self) -> str:
