@@ -55,17 +55,20 @@ def late(v: Variable, interval: float, duration: float) -> list[Group]:
     return result
 
 
-def ageing(factor: str, done: Sequence[str], interval: float, duration: float) -> list[Group]:
-    """What has changed by what was done since the start, any of so many quantities, and is in proportion to a factor
-    ("" for a coefficient by itself): a winding that is warm, a filter that clogs by all that went through, a surface
-    that fouls up to what the flow tears off again, a catalyst that is spent, a rubber that softens along its way. What
-    it remembers for less than a thirtieth of a run follows what is done: terms without a memory are of that."""
+def ageing(
+    factor: str, done: Sequence[str], interval: float, duration: float, beyond: tuple[Shape, ...] = ()
+) -> list[Group]:  # fmt: skip
+    """What has changed by what was done since the start, any of so many quantities, of which one goes `beyond` a
+    threshold, and is in proportion to a factor ("" for a coefficient by itself): a winding that is warm, a filter that
+    clogs by all that went through, a surface that fouls up to what the flow tears off again, a catalyst that is spent,
+    a rubber that softens along its way, frost that grows on what is cold. What it remembers for less than a thirtieth
+    of a run follows what is done: terms without a memory are of that."""
     slow = [s for s in _times(interval, duration) if 30 * s.start >= duration]
     whole = Shape("t", "s", duration / 3, interval, 9 * duration, (), 0.6 * duration / 3)
     kinds = [("total", (), f"{duration:.6g}"), *(("warmth", (s,), "{t}") for s in slow)]
     kinds += [("spent", (replace(whole, start=t, step=0.6 * t),), "{t}") for t in (duration / 9, duration / 3)]
     behind = factor and f"{factor}*"
-    return [Group((f"{behind}{kind}({g}, {t})",), shapes) for g in done for kind, shapes, t in kinds]
+    return [Group((f"{behind}{kind}({g}, {t})",), (*beyond, *shapes)) for g in done for kind, shapes, t in kinds]
 
 
 def _times(interval: float, duration: float) -> list[Shape]:

@@ -8,6 +8,7 @@ function). Texts are Modelica.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -37,7 +38,7 @@ def groups(
         if v.switch:
             result.append(Group((v.scaled,)))
         elif v.kind != "rate":
-            result += _alone(v) if low < 0 < high else _of_one_sign(v, low > AWAY or high < -AWAY)
+            result += _alone(v) if low < 0 < high else _of_one_sign(v, low, high)
         own = [rate for rate in common if rate.local == v.rate]
         result += [g for rate in own for g in (*_contacts(v, rate, low < 0 < high), *_hysteretic(v, rate, high - low))]
         free = next((w for w in found if w.kind == "unheld" and w.name == f"der({v.name})"), None)
@@ -69,7 +70,11 @@ def _aged(
     own = [v for v in found if v.kind == "through"]
     behind = [("", every), *((v.scaled, every) for v in does[:NEAREST]), *((v.scaled, done(v)) for v in does[NEAREST:])]
     behind += [(factor, done(v)) for v in own for factor in ("", v.scaled)]
-    return [g for factor, what in behind for g in ageing(factor, what, interval, duration)]
+    result = [g for factor, what in behind for g in ageing(factor, what, interval, duration)]
+    for v in does:
+        over = zip(beyond(v.scaled), thresholds(*ranges[v.local]), strict=True)
+        result += [g for text, found in over for q in found for g in ageing("", [text], interval, duration, (q,))]
+    return result
 
 
 def _bounded(v: Variable) -> list[Group]:
@@ -94,24 +99,22 @@ def counts(found: Sequence[Variable], offered: Sequence[Group]) -> tuple[int, in
     return len(kinds) - several, several
 
 
-def _of_one_sign(v: Variable, away: bool) -> list[Group]:
-    """`away`: from zero, so that one may divide by it."""
+def _of_one_sign(v: Variable, low: float, high: float) -> list[Group]:
     x = v.scaled
-    power = _powers(f"abs{x}") + ([Group((f"1/{x}",))] if away else [])
+    power = _powers(f"abs{x}") + ([Group((f"1/{x}",))] if low > AWAY or high < -AWAY else [])  # one may divide by it
     bend = _exponential(f"{{q}}*{x}")
-    ends = [
-        Group((f"(abs({x} - {{q}}) + {x} - {{q}})",), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),))
-        for q in (0.25, 0.5, 0.75)
-    ]
-    ends += [
-        Group((f"abs(abs({x} - {{q}}) + {x} - {{q}})^{p}",), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),))
-        for p in BEYOND for q in (0.25, 0.5, 0.75)
-    ]  # fmt: skip
-    ends += [
-        Group((f"({x} + {{q}} - abs({x} - {{q}}))",), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),))
-        for q in (0.25, 0.5, 0.75)
-    ]  # up to a limit: what a dead zone loses, what a stop leaves
-    return [Group((x,)), *power, *bend, *ends, *_yielding(v), *_falling_off(v)]
+    upwards, _ = thresholds(low, high)
+    ends = [Group((beyond(x)[0],), (q,)) for q in upwards]
+    ends += [Group((f"abs{beyond(x)[0]}^{p}",), (q,)) for p in BEYOND for q in upwards]
+    ends += [Group((f"({x} + {{q}} - abs({x} - {{q}}))",), (q,)) for q in upwards]  # up to a limit: what a dead zone
+    return [Group((x,)), *power, *bend, *ends, *_yielding(v), *_falling_off(v)]  # loses, what a stop leaves
+
+
+def thresholds(low: float, high: float) -> tuple[list[Shape], list[Shape]]:
+    """Levels that a scaled variable goes beyond, upwards and downwards: quarters of its range, wherever its zero is."""
+    step = (high - low) / 4
+    up = [Shape("q", "1", low + k * step, low, high, (), step) for k in (1, 2, 3)]
+    return up, [replace(q, start=-q.start, lower=-high, upper=-low) for q in up]
 
 
 def _yielding(v: Variable) -> list[Group]:
@@ -156,7 +159,7 @@ def _alone(v: Variable) -> list[Group]:
         Group((f"tanh({{q}}*{x})",), (Shape("q", "1", q, 0.5, 5e3, (), 0.8 * q),)) for q in (3.0, 15.0, 75.0, 375.0)
     ]
     ends = [
-        Group((beyond,), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),)) for beyond in _beyond(x) for q in (0.0, 0.5)
+        Group((text,), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),)) for text in beyond(x) for q in (0.0, 0.5)
     ]  # fmt: skip
     ends += [
         Group((f"({x} - 0.5*abs({x} + {{q}}) + 0.5*abs({x} - {{q}}))",), (Shape("q", "1", q, 0.01, 0.99, (), 0.25),))
@@ -170,7 +173,7 @@ def _alone(v: Variable) -> list[Group]:
     return [*plain, *power, *bend, *reach, *ends, *_yielding(v), *_falling_off(v), stribeck(v)]
 
 
-def _beyond(x: str) -> tuple[str, str]:
+def beyond(x: str) -> tuple[str, str]:
     """Twice what goes beyond a level upwards, and downwards."""
     return f"(abs({x} - {{q}}) + {x} - {{q}})", f"(abs(-{x} - {{q}}) - {x} - {{q}})"
 
@@ -180,7 +183,7 @@ def _contacts(v: Variable, rate: Variable, both: bool) -> list[Group]:
     spring nor its damper acts."""
     x, y = v.scaled, rate.scaled
     touching = (f"{y}*(1 + sign({s}{x} - {{q}}))" for s in ("", "-"))
-    pairs = list(zip(_beyond(x), touching, strict=True))
+    pairs = list(zip(beyond(x), touching, strict=True))
     result = [Group(texts, (Shape("q", "1", q, -0.99, 0.99, (), 0.25),)) for texts in pairs for q in (-0.5, 0.0, 0.5)]
     if not both:
         return result
