@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "clock.h"
 #include "delay.h"
 #include "sensitivity.h"
 #include "transport.h"
@@ -218,8 +219,8 @@ static rt_status solve_initial_equations(rt_session *s, bool steady, bool *sets)
     if (rt_tangent_initial_event(s)) return s->failure.status;
     changed |= memcmp(m->d, s->d_swept, (size_t)s->d->n_d * sizeof *m->d) != 0;
     if (i >= MAX_ITERATIONS - WATCHED_ITERATIONS) rt_append_changed(s, names, sizeof names);
-    if (steady) memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
     *sets |= memcmp(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d) != 0;
+    if (steady) memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
     if (!changed) return RT_OK;
   }
   return rt_fail(s, RT_INITIALISATION, s->t, -1, NULL,
@@ -251,7 +252,7 @@ static rt_status start(rt_session *s, bool steady, bool *sets) {
 
 /* Where the start or its first event does not settle, from modes that were never meant (elements that stick though they
  * move, or both on one shaft), it begins where it would lead: at discrete values that are before it what they are after
- * it. */
+ * it, where those are others. */
 rt_status rt_initialise(rt_session *s) {
   rt_failure before = s->failure;
   bool sets = false;

@@ -105,18 +105,32 @@ static rt_status write_interpolated(rt_session *s, double t) {
   return status ? status : write_row(s, t, r->x, r->xdot, r->v, tangents, 0);
 }
 
-/* What a state or what is constant inside a step is where (t - t0) / h is theta. */
-static inline double value_inside(const rt_session *s, const rt_output *o, double theta) {
+enum { MANY = 64 }; /* rows at once */
+
+/* A column of rows inside the last step, where (t - t0) / h is theta[rows], of what is a state or constant there. */
+static void write_column(const rt_session *s, const rt_output *o, int rows, const double *theta, double *column) {
+  const double sign = o->sign;
+  if (o->storage != MDL_STATE) {
+    double value = sign * (o->storage == MDL_PARAMETER ? s->data.p : s->data.d)[o->index];
+    for (int k = 0; k < rows; k++)
+      column[k] = value;
+    return;
+  }
   const rt_dense *dense = &s->dense;
-  int n = s->d->n_x;
-  if (o->storage != MDL_STATE) return (o->storage == MDL_PARAMETER ? s->data.p : s->data.d)[o->index];
+  const int n = s->d->n_x;
   const double *c = dense->c + o->index;
-  if (dense->degree == 4) /* as that of dopri5, which most rows are from */
-    return (((c[4 * n] * theta + c[3 * n]) * theta + c[2 * n]) * theta + c[n]) * theta + c[0];
-  double sum = *(c += dense->degree * n);
-  for (int k = dense->degree; k > 0; k--)
-    sum = sum * theta + *(c -= n);
-  return sum;
+  if (dense->degree == 4) { /* as that of dopri5, which most rows are from */
+    const double c0 = c[0], c1 = c[n], c2 = c[2 * n], c3 = c[3 * n], c4 = c[4 * n];
+    for (int k = 0; k < rows; k++)
+      column[k] = sign * ((((c4 * theta[k] + c3) * theta[k] + c2) * theta[k] + c1) * theta[k] + c0);
+    return;
+  }
+  for (int k = 0; k < rows; k++) {
+    double sum = c[dense->degree * n];
+    for (int j = dense->degree - 1; j >= 0; j--)
+      sum = sum * theta[k] + c[j * n];
+    column[k] = sign * sum;
+  }
 }
 
 /* Rows from grid point *t on that are before `inside`, of a step in which nothing but states changes; *t is the first
@@ -124,17 +138,21 @@ static inline double value_inside(const rt_session *s, const rt_output *o, doubl
 static rt_status write_states(rt_session *s, double inside, double *t) {
   rt_dense_prepare(s);
   rt_result *result = s->result;
-  const int n = s->recorder.n;
-  for (; *t < inside; *t = grid_time(s, ++s->recorder.next)) {
+  double theta[MANY];
+  while (*t < inside) {
     rt_status status = reserve(s, 1);
     if (status) return status;
-    const rt_output *o = s->recorder.outputs;
-    size_t row = result->rows++;
-    double theta = (*t - s->dense.t0) / s->dense.h;
-    result->time[row] = *t;
-    result->event[row] = 0;
-    for (double **column = result->columns, **end = column + n; column < end; column++, o++)
-      (*column)[row] = o->sign * value_inside(s, o, theta);
+    const size_t first = result->rows, room = result->capacity - first;
+    const int most = room < MANY ? (int)room : MANY;
+    int rows = 0;
+    for (; *t < inside && rows < most; *t = grid_time(s, ++s->recorder.next)) {
+      theta[rows] = (*t - s->dense.t0) / s->dense.h;
+      result->time[first + (size_t)rows++] = *t;
+    }
+    memset(result->event + first, 0, (size_t)rows);
+    result->rows += (size_t)rows;
+    for (int j = 0; j < s->recorder.n; j++)
+      write_column(s, &s->recorder.outputs[j], rows, theta, result->columns[j] + first);
   }
   return RT_OK;
 }
