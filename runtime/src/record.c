@@ -107,29 +107,35 @@ static rt_status write_interpolated(rt_session *s, double t) {
 
 enum { MANY = 64 }; /* rows at once */
 
+/* The polynomial of a state in rows of theta; inline, so that a known degree unrolls. */
+static inline __attribute__((always_inline)) void write_state(int degree, const double *c, int n, double sign, int rows,
+                                                              const double *theta, double *column) {
+  double a[RT_DENSE_DEGREE + 1];
+  for (int j = 0; j <= degree; j++)
+    a[j] = c[j * n];
+  for (int k = 0; k < rows; k++) {
+    double sum = a[degree];
+    for (int j = degree - 1; j >= 0; j--)
+      sum = sum * theta[k] + a[j];
+    column[k] = sign * sum;
+  }
+}
+
 /* A column of rows inside the last step, where (t - t0) / h is theta[rows], of what is a state or constant there. */
 static void write_column(const rt_session *s, const rt_output *o, int rows, const double *theta, double *column) {
-  const double sign = o->sign;
+  const rt_dense *dense = &s->dense;
+  const double sign = o->sign, *c = dense->c + o->index;
+  const int n = s->d->n_x;
   if (o->storage != MDL_STATE) {
     double value = sign * (o->storage == MDL_PARAMETER ? s->data.p : s->data.d)[o->index];
     for (int k = 0; k < rows; k++)
       column[k] = value;
-    return;
-  }
-  const rt_dense *dense = &s->dense;
-  const int n = s->d->n_x;
-  const double *c = dense->c + o->index;
-  if (dense->degree == 4) { /* as that of dopri5, which most rows are from */
-    const double c0 = c[0], c1 = c[n], c2 = c[2 * n], c3 = c[3 * n], c4 = c[4 * n];
-    for (int k = 0; k < rows; k++)
-      column[k] = sign * ((((c4 * theta[k] + c3) * theta[k] + c2) * theta[k] + c1) * theta[k] + c0);
-    return;
-  }
-  for (int k = 0; k < rows; k++) {
-    double sum = c[dense->degree * n];
-    for (int j = dense->degree - 1; j >= 0; j--)
-      sum = sum * theta[k] + c[j * n];
-    column[k] = sign * sum;
+  } else if (dense->degree == 4) { /* as that of dopri5 */
+    write_state(4, c, n, sign, rows, theta, column);
+  } else if (dense->degree == 5) { /* as IDA's mostly */
+    write_state(5, c, n, sign, rows, theta, column);
+  } else {
+    write_state(dense->degree, c, n, sign, rows, theta, column);
   }
 }
 
