@@ -6,12 +6,13 @@ from lacuna.codegen import flat
 from lacuna.codegen.dae.discrete.events import DiscreteEquation, reads_arrival
 from lacuna.codegen.dae.operators.transports import OPERATOR
 from lacuna.codegen.dae.prepared import Prepared
-from lacuna.codegen.emit.callbacks.asserts import assert_rows
-from lacuna.codegen.emit.callbacks.checks import Checks
+from lacuna.codegen.emit.callbacks.asserts import assert_rows, can_be_violated
+from lacuna.codegen.emit.callbacks.checks import Checks, least_sizes
 from lacuna.codegen.emit.callbacks.continuous import Continuous
 from lacuna.codegen.emit.callbacks.discrete import Discrete
 from lacuna.codegen.emit.callbacks.equations import EquationTable
 from lacuna.codegen.emit.callbacks.large import Large
+from lacuna.codegen.emit.callbacks.stages import has_stages, with_stages
 from lacuna.codegen.emit.callbacks.tables import Tables
 from lacuna.codegen.emit.derivatives.tangents import Tangents
 from lacuna.codegen.emit.functions.endless import calls
@@ -28,7 +29,7 @@ from lacuna.codegen.symbolic.rewrite import expressions
 
 _CALLBACKS = (
     "starts", "parameters", "samples", "initial_system", "rhs", "residual", "jacobian", "roots", "time_relations",
-    "next_time_event", "event", "check", "nominals", "divisions",
+    "next_time_event", "event", "nominals", "divisions",
 )  # fmt: skip
 _DELAYS = {"delays": "mdl_delays", "delay_times": "mdl_delay_times", "delay_input": "mdl_delay_input"}
 _TRANSPORTS = {key: f"mdl_{key}" for key in ("transports", "transport_initial", "transport_input", "transport_points")}
@@ -51,10 +52,12 @@ def generate(prepared: Prepared, sensitivities: bool = False) -> str:
     large = Large(prepared, names, equations, tables.rows())
     functions = [
         large.parameters() or discrete.parameters(), large.starts() or continuous.starts(), discrete.samples(),
-        large.rhs() or continuous.rhs(), large.initial_system() or continuous.initial_system(),
+        *(with_stages(prepared, continuous.rhs()) if has_stages(prepared) else [large.rhs() or continuous.rhs()]),
+        large.initial_system() or continuous.initial_system(),
         large.residual() or continuous.residual(), large.jacobian() or continuous.jacobian(),
         large.roots() or continuous.roots(), discrete.time_relations(), discrete.next_time_event(), discrete.event(),
-        large.check() or continuous.check(), checks.nominals(), checks.divisions(),
+        *([large.check() or continuous.check()] if can_be_violated(prepared) else []),
+        checks.nominals(), checks.divisions(),
         *filter(None, [checks.phases(), large.guard_rates() or continuous.guard_rates()]),
         *checks.delays(), *checks.transports(),
     ]  # fmt: skip
@@ -146,6 +149,7 @@ def _arrays(tables: Tables, checks: Checks, messages: list[str]) -> tuple[list[s
         "equation_variables": ("int mdl_equation_variables", variables),
         "divisions": ("int mdl_division_equation", divided),
         "affine": ("unsigned char mdl_affine_guards", tables.affine_guards()),
+        "least": ("unsigned char mdl_least_sizes", least_sizes(checks.prepared)),
         "delay": ("int mdl_delay_input", checks.delay_inputs()),
         "transport": ("int mdl_transport_points", checks.transport_points()),
         "marks": ("int mdl_transport_input", checks.transport_inputs()),
@@ -198,6 +202,9 @@ def _descriptor(prepared: Prepared, counts: dict[str, int], tangents: bool) -> s
         **(_DELAYS if prepared.delays else {}),
         **(_TRANSPORTS if prepared.transports else {}),
         **({"tangents": "&mdl_model_tangents"} if tangents else {}),
+        **({"least_sizes": "mdl_least_sizes"} if least_sizes(prepared) else {}),
+        **({"check": "mdl_check"} if can_be_violated(prepared) else {}),
+        **({"stages": "mdl_stages"} if has_stages(prepared) else {}),
     }
     rows = "\n".join(f"  .{key} = {value}," for key, value in fields.items())
     return (

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from lacuna.codegen.symbolic.expr import REAL, Expr, is_const, node, substitute, transform
+from lacuna.codegen.symbolic.expr import REAL, Expr, is_const, node, substitute, table, transform
 
 OP = "annotated"
 
@@ -75,5 +75,5 @@ def unmarked(e: Expr) -> Expr:
 
 def plain(e: Expr, memo: dict[Expr, Expr] | None = None) -> Expr:
     """`e` with values alone in the place of annotated ones."""
-    memo = {} if memo is None else memo
+    memo = table().plain if memo is None else memo
     return transform(e, lambda n: plain(n.args[0], memo) if n.op == OP else None, memo)

@@ -67,6 +67,8 @@ class Table:
         self.nodes: dict[tuple, Expr] = {}
         self.leaves: dict[Expr, frozenset[Expr]] = {}
         self.nonlinear: dict[Expr, frozenset[Expr]] = {}
+        self.plain: dict[Expr, Expr] = {}
+        self.holding: dict[Callable[[Expr], bool], dict[Expr, bool]] = {}
 
 
 class _Current(threading.local):

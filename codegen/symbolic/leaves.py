@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 
 from lacuna.codegen.symbolic.expr import Expr, table, transform
 
@@ -23,6 +23,16 @@ def leaves(e: Expr) -> frozenset[Expr]:
             below = [leaves(a) for a in (e.args[:1] if e.op == "annotated" else e.args)]
             found = below[0] if len(below) == 1 else frozenset().union(*below)
         memo[e] = found
+    return found
+
+
+def holds(e: Expr, test: Callable[[Expr], bool]) -> bool:
+    """Whether some part of `e` passes a test (a function that lasts: tables of thousands of values stand in hundreds of
+    calls, and are looked at once)."""
+    memo = table().holding.setdefault(test, {})
+    found = memo.get(e)
+    if found is None:
+        found = memo[e] = test(e) or any(holds(a, test) for a in e.args)
     return found
 
 

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 25
+#define MDL_ABI_VERSION 26
 
 enum { MDL_FOLLOWS = 1, MDL_ARRIVAL = 2 }; /* bits of events_follow */
 
@@ -56,7 +56,6 @@ typedef struct {
 /* Up to here the root is that of the start values' branch (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004,
  * 2.1 and 5.1); towards a double root the ratio tends to 1/2. */
 #define MDL_CONTRACTS 0.25
-
 #define MDL_SOMEWHERE 0x7fffffff /* of no equation that is known */
 
 /* All memory of one run of one model; allocated by the runtime from the counts of the descriptor. */
@@ -157,7 +156,11 @@ typedef struct {
 typedef struct {
   int index, rate, equation; /* v[index], v[rate] */
 } mdl_lasting;
-struct mdl_tangents;
+
+typedef struct {
+  int stages;                    /* of an explicit Runge-Kutta scheme */
+  const double *nodes, *weights; /* [stages], [stages * (stages - 1)] */
+} mdl_scheme;
 
 typedef struct mdl_descriptor {
   int abi_version;
@@ -218,7 +221,8 @@ typedef struct mdl_descriptor {
    * true and m->when (the condition before this pass) is false; event() updates m->when itself. */
   int (*event)(mdl_data *m, double t, double *x, const double *xdot, const double *v);
 
-  /* Check the other asserts at an accepted point; not 0, with m->failure set, where one is violated or has no value. */
+  /* Check the other asserts at an accepted point; not 0, with m->failure set, where one is violated. NULL: no others.
+   */
   int (*check)(mdl_data *m, double t, const double *x, const double *xdot, const double *v);
 
   const struct mdl_tangents *tangents; /* derivatives (mdl_tangent.h); NULL where they were not asked for */
@@ -228,8 +232,7 @@ typedef struct mdl_descriptor {
   const int *equation_variables; /* rows of `variables` */
 
   /* Sizes of the unknowns [n_x + n_z], of the guards [n_rel] and of what is delayed [n_delay] for the present
-   * parameters, as far as the model tells; 0 where it does not; negative where a state or unknown is that large at
-   * least. */
+   * parameters, as far as the model tells; 0 where it does not. */
   int (*nominals)(mdl_data *m, double *nominal);
 
   /* value[2 k], value[2 k + 1]: numerator and divisor of division k, at a complete point; NAN where the division is in
@@ -281,6 +284,12 @@ typedef struct mdl_descriptor {
 
   int n_lasting;
   const mdl_lasting *lasting; /* [n_lasting] NULL: the equations that were differentiated do not switch */
+
+  const unsigned char *least_sizes; /* [n_x] 1: a state is as large as its size at least; NULL: none is told so */
+
+  /* All stages of a step of h from (t, x), with its slopes in k[0 .. n_x): as rhs() gives, brief but for the last,
+   * k[j n_x + i] = x'_i at x + h sum_l weights[j][l] k_l; x1 and v are those of the last. NULL: one by one. */
+  int (*stages)(mdl_data *m, const mdl_scheme *, double t, double h, const double *x, double *k, double *x1, double *v);
 } mdl_descriptor;
 
 typedef const mdl_descriptor *(*mdl_descriptor_fn)(void);

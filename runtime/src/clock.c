@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "session.h"
+#include "clock.h"
 
 static double tick_time(const rt_clock *c, int i) {
   return c->first[i] + (double)c->next[i] * c->interval[i];
@@ -37,13 +37,8 @@ rt_status rt_clock_begin(rt_session *s) {
   return RT_OK;
 }
 
-/* The next tick or time relation. */
-double rt_clock_next(const rt_session *s) {
-  return rt_min(s->clock.next_relation, s->clock.next_tick);
-}
-
-/* The next instant that the step may not pass: where something happens at a known time. */
-double rt_clock_limit(rt_session *s) {
+/* As rt_clock_limit, of fixed steps or with inputs. */
+double rt_clock_limit_beside(rt_session *s) {
   double limit = s->stop;
   if (s->options.step > 0) {
     rt_clock *c = &s->clock;
@@ -54,14 +49,6 @@ double rt_clock_limit(rt_session *s) {
   }
   limit = rt_min(limit, rt_clock_next(s));
   return s->d->n_u ? rt_min(limit, rt_inputs_next_break(s)) : limit;
-}
-
-/* What has become due at the present time, as RT_PENDING flags. */
-int rt_clock_due(rt_session *s) {
-  double now = s->t + s->clock.tolerance;
-  int pending = s->clock.next_relation <= now ? RT_PENDING_TIME : 0;
-  if (s->clock.next_tick <= now) pending |= RT_PENDING_SAMPLE;
-  return s->d->n_u ? pending | rt_inputs_due(s) : pending;
 }
 
 static void log_time_relations(rt_session *s) {

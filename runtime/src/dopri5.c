@@ -20,11 +20,15 @@ static const double d[STAGES] = {-12715105075. / 11282082432.,  0,
                                  701980252875. / 199316789632., -1453857185. / 822651844.,
                                  69997945. / 29380423.};
 
+static const mdl_scheme tableau = {.stages = STAGES, .nodes = c, .weights = &a[0][0]};
+
 /* The stages, of n states, and the error. */
 static inline __attribute__((always_inline)) int stages(rt_session *s, rt_onestep *o, double h, int n) {
+  bool at_once = s->d->stages && !o->tangent;
+  int status = at_once ? rt_stages_at_once(s, o, h, &tableau) : 0;
 #pragma GCC unroll 6
-  for (int j = 1; j < STAGES; j++) {
-    int status = rt_explicit_stage(s, o, h, n, j, c[j], a[j], j == STAGES - 1);
+  for (int j = 1; j < STAGES && !at_once; j++) {
+    status = rt_explicit_stage(s, o, h, n, j, c[j], a[j], j == STAGES - 1);
     if (status) return status;
   }
   const double *k = o->k;
@@ -36,7 +40,7 @@ static inline __attribute__((always_inline)) int stages(rt_session *s, rt_oneste
       sum += e[j] * rt_load(k + j * n + i);
     rt_store(error + i, h * (sum + e[STAGES - 1] * rt_load_fresh(k + (STAGES - 1) * n + i)));
   }
-  return 0;
+  return status;
 }
 
 /* Of few states, as most models have, the loops over them are a third of all work: their number is known to each. */
@@ -85,6 +89,7 @@ static const rt_scheme scheme = {.stages = STAGES,
                                  .min_factor = 0.2,
                                  .max_factor = 10,
                                  .ends_are_stages = true,
+                                 .error_has_f1 = true,
                                  .attempt = attempt,
                                  .dense = dense,
                                  .nodes = c,

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "clock.h"
 #include "sensitivity.h"
 #include "swings.h"
 #include "transport.h"

@@ -15,13 +15,14 @@ static void euler_dense(int n, const rt_onestep *o, rt_dense *dense) {
 }
 
 static int rk4_attempt(rt_session *s, rt_onestep *o, double h) {
-  static const double a1[] = {0.5}, a2[] = {0, 0.5}, a3[] = {0, 0, 1}, b[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
-  int status;
-  if ((status = rt_explicit_stage(s, o, h, s->d->n_x, 1, 0.5, a1, false)) ||
-      (status = rt_explicit_stage(s, o, h, s->d->n_x, 2, 0.5, a2, false)) ||
-      (status = rt_explicit_stage(s, o, h, s->d->n_x, 3, 1, a3, false)))
-    return status;
-  return rt_explicit_stage(s, o, h, s->d->n_x, 4, 1, b, true);
+  static const double c[5] = {0, 0.5, 0.5, 1, 1};
+  static const double a[5][4] = {{0}, {0.5}, {0, 0.5}, {0, 0, 1}, {1. / 6, 1. / 3, 1. / 3, 1. / 6}};
+  static const mdl_scheme tableau = {.stages = 5, .nodes = c, .weights = &a[0][0]};
+  if (s->d->stages) return rt_stages_at_once(s, o, h, &tableau);
+  int status = 0;
+  for (int j = 1; j < 5 && !status; j++)
+    status = rt_explicit_stage(s, o, h, s->d->n_x, j, c[j], a[j], j == 4);
+  return status;
 }
 
 /* Cubic Hermite polynomial through both ends of the step: local error O(h^4), so one event does not cost the order. */

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "clock.h"
 #include "delay.h"
 #include "sensitivity.h"
 #include "transport.h"
@@ -180,9 +181,9 @@ static void begin_relations(rt_session *s) {
 }
 
 /* Initial equations, relations and discrete equations with initial() true, until they agree; pre(d) stays the start
- * value, which the first event leaves (8.6), or is what d comes to be (`steady`). States given by the caller are what
- * others follow from; they replace what initial equations say of them. */
-static rt_status solve_initial_equations(rt_session *s, bool steady) {
+ * value, which the first event leaves (8.6), or is what d comes to be (`steady`); *sets: that is another. States given
+ * by the caller are what others follow from; they replace what initial equations say of them. */
+static rt_status solve_initial_equations(rt_session *s, bool steady, bool *sets) {
   mdl_data *m = &s->data;
   const size_t x_size = (size_t)s->d->n_x * sizeof *m->x;
   char names[400] = "";
@@ -218,6 +219,7 @@ static rt_status solve_initial_equations(rt_session *s, bool steady) {
     if (rt_tangent_initial_event(s)) return s->failure.status;
     changed |= memcmp(m->d, s->d_swept, (size_t)s->d->n_d * sizeof *m->d) != 0;
     if (i >= MAX_ITERATIONS - WATCHED_ITERATIONS) rt_append_changed(s, names, sizeof names);
+    *sets |= memcmp(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d) != 0;
     if (steady) memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
     if (!changed) return RT_OK;
   }
@@ -236,7 +238,7 @@ static rt_status first_events(rt_session *s) {
   return rt_iterate_event(s);
 }
 
-static rt_status start(rt_session *s, bool steady) {
+static rt_status start(rt_session *s, bool steady, bool *sets) {
   clear(s);
   rt_status status = set_parameters_and_starts(s);
   if (!status) status = rt_clock_begin(s);
@@ -244,19 +246,20 @@ static rt_status start(rt_session *s, bool steady) {
   rt_inputs_reset(s);
   if ((status = rt_delays_begin(s)) || (status = rt_transports_begin(s))) return status;
   rt_inputs_begin(s, s->start);
-  if ((status = solve_initial_equations(s, steady))) return status;
+  if ((status = solve_initial_equations(s, steady, sets))) return status;
   return first_events(s);
 }
 
 /* Where the start or its first event does not settle, from modes that were never meant (elements that stick though they
  * move, or both on one shaft), it begins where it would lead: at discrete values that are before it what they are after
- * it. */
+ * it, where those are others. */
 rt_status rt_initialise(rt_session *s) {
   rt_failure before = s->failure;
-  rt_status status = start(s, false);
-  if (status != RT_EVENT_CYCLE && status != RT_INITIALISATION) return status;
+  bool sets = false;
+  rt_status status = start(s, false, &sets);
+  if (!sets || (status != RT_EVENT_CYCLE && status != RT_INITIALISATION)) return status;
   rt_failure told = s->failure;
   s->failure = before;
-  if (start(s, true)) s->failure = told;
+  if (start(s, true, &sets)) s->failure = told;
   return s->failure.status;
 }

@@ -15,13 +15,10 @@ static const double most_looks = 5000;
 
 void rt_looks_begin(rt_session *s) {
   double span = s->stop - s->start;
+  s->looks_inside = s->options.locate_events && s->d->n_rel && (s->d->n_phases || s->d->curved_guards);
   const rt_recorder *r = &s->recorder;
   double wanted = r->n_grid > 1 ? span / r->n_grid : r->interval > 0 ? r->interval : span;
   s->look = s->look_curved = s->d->curved_guards ? rt_max(wanted, span / most_looks) : INFINITY;
-}
-
-static bool none(const rt_session *s) {
-  return !s->options.locate_events || !s->d->n_rel || !(s->d->n_phases || s->d->curved_guards);
 }
 
 static int phases(rt_session *s, double *phase) {
@@ -31,7 +28,7 @@ static int phases(rt_session *s, double *phase) {
 
 /* Before a step: its phases there. */
 void rt_looks_start(rt_session *s) {
-  if (!none(s) && phases(s, s->phase_start)) s->phase_start[0] = NAN;
+  if (s->looks_inside && phases(s, s->phase_start)) s->phase_start[0] = NAN;
 }
 
 /* After a step: the longest piece of it to look at, and its end, to come back to. */
@@ -39,7 +36,7 @@ void rt_looks_divide(rt_session *s) {
   const mdl_descriptor *d = s->d;
   s->look = INFINITY;
   s->in_pieces = false;
-  if (none(s)) return;
+  if (!s->looks_inside) return;
   double turn = 0, h = s->t_end - s->t_previous;
   if (!phases(s, s->phase))
     for (int k = 0; k < d->n_phases; k++) {

@@ -14,6 +14,7 @@ typedef struct {
   double damping;                /* PI control: exponent of the last step's error (Hairer, Norsett & Wanner I, II.4) */
   double min_factor, max_factor; /* of the step size from step to step */
   bool ends_are_stages;          /* the first stage is f at the start of the step, the last f at its end */
+  bool error_has_f1;             /* no error is a number unless all f at the end of the step are */
   size_t (*work_size)(const mdl_descriptor *d); /* bytes of work space; NULL: none */
   /* From (t0, x0, f0) a step h: x1, f1 = f(t0 + h, x1) and the local error, of no use where order is 0. */
   int (*attempt)(rt_session *s, struct rt_onestep *o, double h);
@@ -103,6 +104,14 @@ static inline __attribute__((always_inline)) int rt_explicit_stage(rt_session *s
   double t = o->t0 + c * h, *k = o->k + j * n_x;
   int status = last || o->tangent ? rt_rhs(s, t, x, k, s->data.v) : rt_derivatives(s, t, x, k, s->data.v);
   if (o->tangent) rt_onestep_keep_stage(s, o, j);
+  return status;
+}
+
+/* All stages, of a model that computes them in one call. */
+static inline int rt_stages_at_once(rt_session *s, rt_onestep *o, double h, const mdl_scheme *scheme) {
+  s->result->counters.rhs += scheme->stages - 1;
+  int status = s->d->stages(&s->data, scheme, o->t0, h, o->x0, o->k, o->x1, s->data.v);
+  s->unsettled = s->data.unsettled;
   return status;
 }
 

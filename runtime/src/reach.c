@@ -154,9 +154,9 @@ bool rt_keep_away(rt_session *s, const double *error, double share) {
   int n = s->d->n_x;
   rt_dense_prepare(s);
   if (dense->t0 != s->t_previous) return false;
-  bool free = dense->degree == 4 /* as that of dopri5 */
-                  ? measure(k, dense, 4, n, error, 1 / share)
-                  : measure(k, dense, dense->degree, n, error, 1 / share);
+  bool free = dense->degree == 4 /* as that of dopri5 */ ? measure(k, dense, 4, n, error, 1 / share)
+              : dense->degree == 5 /* as IDA's mostly */ ? measure(k, dense, 5, n, error, 1 / share)
+                                                         : measure(k, dense, dense->degree, n, error, 1 / share);
   if (!free && !look(s, error, share)) {
     k->leeway[n] = -INFINITY;
     return false;

@@ -105,18 +105,38 @@ static rt_status write_interpolated(rt_session *s, double t) {
   return status ? status : write_row(s, t, r->x, r->xdot, r->v, tangents, 0);
 }
 
-/* What a state or what is constant inside a step is where (t - t0) / h is theta. */
-static inline double value_inside(const rt_session *s, const rt_output *o, double theta) {
+enum { MANY = 64 }; /* rows at once */
+
+/* The polynomial of a state in rows of theta; inline, so that a known degree unrolls. */
+static inline __attribute__((always_inline)) void write_state(int degree, const double *c, int n, double sign, int rows,
+                                                              const double *theta, double *column) {
+  double a[RT_DENSE_DEGREE + 1];
+  for (int j = 0; j <= degree; j++)
+    a[j] = c[j * n];
+  for (int k = 0; k < rows; k++) {
+    double sum = a[degree];
+    for (int j = degree - 1; j >= 0; j--)
+      sum = sum * theta[k] + a[j];
+    column[k] = sign * sum;
+  }
+}
+
+/* A column of rows inside the last step, where (t - t0) / h is theta[rows], of what is a state or constant there. */
+static void write_column(const rt_session *s, const rt_output *o, int rows, const double *theta, double *column) {
   const rt_dense *dense = &s->dense;
-  int n = s->d->n_x;
-  if (o->storage != MDL_STATE) return (o->storage == MDL_PARAMETER ? s->data.p : s->data.d)[o->index];
-  const double *c = dense->c + o->index;
-  if (dense->degree == 4) /* as that of dopri5, which most rows are from */
-    return (((c[4 * n] * theta + c[3 * n]) * theta + c[2 * n]) * theta + c[n]) * theta + c[0];
-  double sum = *(c += dense->degree * n);
-  for (int k = dense->degree; k > 0; k--)
-    sum = sum * theta + *(c -= n);
-  return sum;
+  const double sign = o->sign, *c = dense->c + o->index;
+  const int n = s->d->n_x;
+  if (o->storage != MDL_STATE) {
+    double value = sign * (o->storage == MDL_PARAMETER ? s->data.p : s->data.d)[o->index];
+    for (int k = 0; k < rows; k++)
+      column[k] = value;
+  } else if (dense->degree == 4) { /* as that of dopri5 */
+    write_state(4, c, n, sign, rows, theta, column);
+  } else if (dense->degree == 5) { /* as IDA's mostly */
+    write_state(5, c, n, sign, rows, theta, column);
+  } else {
+    write_state(dense->degree, c, n, sign, rows, theta, column);
+  }
 }
 
 /* Rows from grid point *t on that are before `inside`, of a step in which nothing but states changes; *t is the first
@@ -124,17 +144,21 @@ static inline double value_inside(const rt_session *s, const rt_output *o, doubl
 static rt_status write_states(rt_session *s, double inside, double *t) {
   rt_dense_prepare(s);
   rt_result *result = s->result;
-  const int n = s->recorder.n;
-  for (; *t < inside; *t = grid_time(s, ++s->recorder.next)) {
+  double theta[MANY];
+  while (*t < inside) {
     rt_status status = reserve(s, 1);
     if (status) return status;
-    const rt_output *o = s->recorder.outputs;
-    size_t row = result->rows++;
-    double theta = (*t - s->dense.t0) / s->dense.h;
-    result->time[row] = *t;
-    result->event[row] = 0;
-    for (double **column = result->columns, **end = column + n; column < end; column++, o++)
-      (*column)[row] = o->sign * value_inside(s, o, theta);
+    const size_t first = result->rows, room = result->capacity - first;
+    const int most = room < MANY ? (int)room : MANY;
+    int rows = 0;
+    for (; *t < inside && rows < most; *t = grid_time(s, ++s->recorder.next)) {
+      theta[rows] = (*t - s->dense.t0) / s->dense.h;
+      result->time[first + (size_t)rows++] = *t;
+    }
+    memset(result->event + first, 0, (size_t)rows);
+    result->rows += (size_t)rows;
+    for (int j = 0; j < s->recorder.n; j++)
+      write_column(s, &s->recorder.outputs[j], rows, theta, result->columns[j] + first);
   }
   return RT_OK;
 }

@@ -34,10 +34,8 @@ rt_status rt_scale_parameters(rt_session *s) {
   }
   for (int r = 0; r < d->n_rel + d->n_delay; r++)
     if (!(s->g_nominal[r] > 0) || !isfinite(s->g_nominal[r])) s->g_nominal[r] = 0;
-  for (int i = 0; i < d->n_x + d->n_z; i++) {
-    s->modest[i] = i < d->n_x && s->nominal[i] < 0;
-    s->nominal[i] = fabs(s->nominal[i]);
-  }
+  for (int i = 0; i < d->n_x; i++)
+    s->modest[i] = d->least_sizes && d->least_sizes[i] && s->nominal[i] > 0;
   for (int i = 0; i < d->n_x + d->n_z; i++) /* until the start is known */
     s->atol[i] = s->options.atol * sized(s->nominal[i], 0);
   return RT_OK;
@@ -93,6 +91,13 @@ static void begin_where_time_resolves(rt_session *s) {
   if (s->d->n_u) rt_inputs_at(s, s->t);
 }
 
+/* Whether some state may come to be larger than it is at the start, as far as its tolerance goes. */
+static bool is_open(const rt_session *s) {
+  for (int i = 0; i < s->d->n_x; i++)
+    if (s->range[i] < s->nominal[i] || s->modest[i] > 0) return true;
+  return false;
+}
+
 /* At the start: sizes of what the model tells nothing of, and the first tolerances. */
 void rt_scale_start(rt_session *s) {
   const mdl_descriptor *d = s->d;
@@ -101,7 +106,7 @@ void rt_scale_start(rt_session *s) {
     s->nominal[i] = sized(s->nominal[i], start);
     s->range[i] = i < d->n_x ? fabs(start) : s->nominal[i];
   }
-  if (d->n_x && !s->atol_given) begin_where_time_resolves(s);
+  if (is_open(s) && !s->atol_given) begin_where_time_resolves(s);
   set_tolerances(s);
 }
 

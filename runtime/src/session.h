@@ -144,6 +144,7 @@ struct rt_session {
   bool reinitialised, shaped; /* the last event did; shape is of the last step, with the present relations */
   bool far, quiet;            /* no affine guard comes near zero in the last step (reach.c), or crosses */
   bool all_affine;            /* all guards of state relations are affine */
+  bool looks_inside;          /* steps are looked at in pieces where that is called for */
   unsigned char *flip;        /* [n_rel] relations that switch at t */
   int pending;
   double last_event;          /* time of the last event (s) */
@@ -266,16 +267,15 @@ double rt_inputs_next_break(rt_session *s);
 int rt_inputs_due(rt_session *s);
 double rt_input_slope(const rt_session *s, int i);
 rt_status rt_clock_begin(rt_session *s);
-double rt_clock_next(const rt_session *s);
-double rt_clock_limit(rt_session *s);
-int rt_clock_due(rt_session *s);
 void rt_clock_tick(rt_session *s);
 void rt_clock_look(rt_session *s);
 bool rt_clock_relations(rt_session *s);
+
 /* guards.c, roots.c and dips.c */
 double rt_margin(const rt_session *s, int r, double g);
 int rt_guards_at(rt_session *s, double t, double *g);
 rt_status rt_find_state_event(rt_session *s);
+bool rt_step_short(rt_session *s);
 void rt_resume_step(rt_session *s);
 bool rt_may_dip(const rt_session *s, double end);
 int rt_find_dip(rt_session *s, double *inside);

@@ -3,6 +3,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "clock.h"
 #include "delay.h"
 #include "looks.h"
 #include "sensitivity.h"
@@ -15,7 +16,7 @@ static const double look_every = 0.1; /* s of wall time: has the caller lost int
 
 rt_status rt_check_asserts(rt_session *s) {
   mdl_data *m = &s->data;
-  if (!s->d->n_asserts) return RT_OK;
+  if (!s->d->check) return RT_OK;
   m->unsettled = 0;
   if (s->d->check(m, s->t, m->x, m->xdot, m->v) || rt_check_settled(s, m->unsettled))
     return rt_fail_model(s, s->t, "checking");
@@ -127,6 +128,7 @@ rt_status rt_advance(rt_session *s) {
   if (!status) status = rt_find_state_event(s);
   if (!status) status = rt_tangent_follow(s);
   if (!status) status = rt_branch_follow(s);
+  if (status && rt_branch_switches(s)) status = RT_OK;
   if (status && s->branches.ended) (void)rt_record_step(s); /* up to there */
   if (!status) status = rt_delays_follow(s);
   if (!status) status = rt_transports_follow(s);
@@ -135,7 +137,7 @@ rt_status rt_advance(rt_session *s) {
   if (status) return status;
   s->pending |= rt_clock_due(s);
   if (!s->pending) s->resume = s->t < s->t_end;
-  if ((status = rt_record_step(s))) return status;
+  if ((status = rt_record_step(s)) && !rt_branch_switches(s)) return status;
   rt_branch_begin(s);
   return RT_OK;
 }

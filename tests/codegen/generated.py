@@ -99,9 +99,10 @@ class Generated:
         assert self.call("starts") == 0
 
     def call(self, name: str, *arguments: float | np.ndarray) -> int:
-        """The status that a callback returns; arrays are passed as they are."""
+        """The status that a callback returns, 0 of one that the model does without; arrays are passed as they are."""
+        callback = getattr(self.descriptor, name)
         converted = [a.ctypes.data_as(_DOUBLES) if isinstance(a, np.ndarray) else a for a in arguments]
-        return getattr(self.descriptor, name)(ctypes.byref(self.data), *converted)
+        return callback(ctypes.byref(self.data), *converted) if callback else 0
 
     def rhs(self, t: float, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """(xdot, v) of the explicit form."""

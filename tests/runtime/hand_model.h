@@ -168,6 +168,8 @@ template <class M> struct Generated {
                                      0,
                                      nullptr,
                                      0,
+                                     nullptr,
+                                     nullptr,
                                      nullptr};
     return &d;
   }

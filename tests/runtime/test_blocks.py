@@ -183,3 +183,32 @@ def test_a_bridge_of_exponential_diodes_follows_a_step(tmp_path: Path, volts: fl
     current = float(result["is"][-1]) * np.sign(volts)
     drop = 2 * 0.026 * np.log(current / 1e-12)
     assert (abs(volts) - drop) / 1100 == pytest.approx(current, rel=1e-5)
+
+
+BRIDGE = """model Bridge "Four diodes that a square wave throws from one side to the other: e^1900 at the start values"
+  parameter Real R=1, Is=1e-12, Vt=0.026, C=1e-3, load=100, leak=1e-8;
+  Real u, a, v(start=0, fixed=true), is, d[4], i[4];
+equation
+  u = if sin(50*time) > 0 then 200 else -50;
+  d = {a - v, a - u + R*is - v, -a, u - R*is - a};
+  for k in 1:4 loop i[k] = Is*(exp(d[k]/Vt) - 1) + leak*d[k]; end for;
+  is = i[1] - i[3]; is = i[4] - i[2];
+  C*der(v) = i[1] + i[2] - v/load;
+end Bridge;
+"""
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+def test_diodes_are_thrown_from_side_to_side(tmp_path: Path, solver: str) -> None:
+    result = runtime.simulate(compiled(tmp_path, BRIDGE), solver=solver, stop=1.0, interval=0.01, rtol=1e-6)
+    assert result.complete, result.failure
+    for k in range(1, 5):
+        current = 1e-12 * np.expm1(result[f"d[{k}]"] / 0.026) + 1e-8 * result[f"d[{k}]"]
+        np.testing.assert_allclose(result[f"i[{k}]"], current, rtol=1e-6, atol=1e-9)
+    np.testing.assert_allclose(result["is"], result["i[1]"] - result["i[3]"], atol=1e-6)
+    np.testing.assert_allclose(result["is"], result["i[4]"] - result["i[2]"], atol=1e-6)
+    forward = 2 * 0.026 * np.log1p(np.maximum(result["is"], 0) / 1e-12)
+    conducts = result["is"] > 0.01
+    np.testing.assert_allclose((200 - result["is"] - forward - result["v"])[conducts], 0, atol=1e-4)
+    assert conducts.any()
+    assert 100 < result["v"][-1] < 198.4

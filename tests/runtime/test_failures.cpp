@@ -135,6 +135,30 @@ TEST_P(Failures, Initialisation) {
   expect_failure<NoStart>(GetParam(), RT_INITIALISATION, 0, "did not converge");
 }
 
+struct CountedStart : Still {
+  static inline int calls = 0;
+  static int rhs(mdl_data *m, double, const double *, double *, double *) {
+    calls++;
+    m->failure = {MDL_FAILURE_NEWTON, 0, -1, 3, 0};
+    return 1;
+  }
+};
+
+TEST_P(Failures, AStartThatFailsIsNotTriedAgainUnchanged) {
+  CountedStart::calls = 0;
+  expect_failure<CountedStart>(GetParam(), RT_INITIALISATION, 0, "did not converge");
+  EXPECT_EQ(CountedStart::calls, 2) << "with what homotopy() is, and with what it is simplified to";
+}
+
+struct Sized : Still {
+  static std::vector<mdl_variable> variables() { return {variable("x", MDL_STATE, 0, 1)}; }
+};
+
+TEST(Starts, LookAheadWhereASizeIsOpenOnly) {
+  Options options = {.solver = "rk4", .atol = 0, .step = 0.1};
+  EXPECT_LT(simulate<Sized>(options, 1).counters().rhs, simulate<Still>(options, 1).counters().rhs);
+}
+
 TEST_P(Failures, TerminateEndsTheRunNormally) {
   Result result = simulate<Terminating>({.solver = GetParam()}, 2);
   EXPECT_EQ(result.failure().status, RT_OK);

@@ -48,6 +48,11 @@ def of_the_run(p: Prepared) -> list[tuple[int, flat.Assert]]:
     return [(k, a) for k, a in enumerate(_told(p.model.asserts)) if k not in early]
 
 
+def can_be_violated(p: Prepared) -> bool:
+    """Whether anything is left to check, or to tell, once a run has its parameters."""
+    return len(all_asserts(p)) > len(of_parameters(p))
+
+
 def write_assert(body: Body, check: flat.Assert, row: int) -> None:
     condition = check.condition
     if check.level == "warning":

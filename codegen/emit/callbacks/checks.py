@@ -17,7 +17,7 @@ from lacuna.codegen.emit.text.steps import comment
 from lacuna.codegen.structure.causal import Assignment, Division, Step
 from lacuna.codegen.structure.nominal import difference
 from lacuna.codegen.structure.sizes import told
-from lacuna.codegen.symbolic.expr import BOOLEAN, REAL, ZERO, Expr, neg, var
+from lacuna.codegen.symbolic.expr import BOOLEAN, REAL, ZERO, Expr, var
 from lacuna.codegen.symbolic.leaves import leaves
 
 NOMINALS = "static int mdl_nominals(mdl_data *m, double *nominal)"
@@ -70,12 +70,9 @@ class Checks:
         sizes, model = self.prepared.nominals, self.prepared.model
         unknowns = [*map(var, self.prepared.storage.states), *self.prepared.residual.tears]
         found = [sizes.get(u) for u in unknowns]
-        modest = [size is not None and size.at_least for size in found]
         found += [difference(r.left, r.right, sizes, model) for r in self.prepared.relations]
         found += [sizes.get(var(d.past)) for d in self.prepared.delays]
-        values = [told(size) if size else ZERO for size in found]
-        values[: len(modest)] = [neg(v) if m else v for v, m in zip(values, modest, strict=False)]
-        rows = [(f"nominal[{k}]", value, "") for k, value in enumerate(values)]
+        rows = [(f"nominal[{k}]", told(size) if size else ZERO, "") for k, size in enumerate(found)]
         return self._write(NOMINALS, rows, self.prepared.storage.frozen)
 
     def divisions(self) -> str:
@@ -140,6 +137,13 @@ class Checks:
 
     def division_equations(self) -> list[str]:
         return [str(self.equations.index(q.source)) for q in self.prepared.divisions]
+
+
+def least_sizes(p: Prepared) -> list[str]:
+    """1 for each state of which the model tells a least size alone; nothing where there is none."""
+    sizes = [p.nominals.get(var(name)) for name in p.storage.states]
+    rows = [str(int(size is not None and size.at_least)) for size in sizes]
+    return rows if "1" in rows else []
 
 
 def _sources(step: Step) -> Iterator[tuple[Expr, flat.Equation]]:

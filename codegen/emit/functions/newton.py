@@ -11,6 +11,7 @@ is no root, a limited gain throws each step to the other limit, the Jacobian is 
   Introduction to Numerical Continuation Methods, 2003), with steps of s that halve where Newton's method does not
   follow and double where it does. Where that does not leave the start (a Jacobian that is singular or not finite
   there), both ways are tried from starts moved by the sizes of the unknowns, up and down.
+- of several with exponentials, where all that fails: their exponents are limited for a while (text/limited.py).
 
 How each step compares with the one before is kept for the runtime, which sees to it that a run follows one root
 (runtime/src/fold.c).
@@ -19,6 +20,7 @@ How each step compares with the one before is kept for the runtime, which sees t
 NEWTON = """\
 enum { MDL_DAMPED, MDL_SEARCH, MDL_BRACKET, MDL_FOLLOW, MDL_SOLVED, MDL_FAILED };
 enum { MDL_ITERATIONS = 50, MDL_CORRECTIONS = 10, MDL_HALVINGS = 12, MDL_DOUBLINGS = 100, MDL_LOOKS = 1000 };
+enum { MDL_FIRST_LIMIT = 32, MDL_LAST_LIMIT = 256 }; /* of exponents, whose squares are numbers still */
 
 /* A nonlinear block of n unknowns x. `work` holds 4 n numbers: the start, the last step, the weights of the residuals
  * or, where a path is followed, the residual at the start, and the last point of the path. */
@@ -35,6 +37,8 @@ typedef struct {
                                               it was found, and how far was searched on the other side */
   int found;                               /* by which look */
   double path, reached, stride;            /* several: s, the last s that was reached, the step */
+  double limit;                            /* several: of exponents, INFINITY: none; */
+  int limited;                             /* there has been one */
 } mdl_newton;
 
 static void mdl_newton_place(mdl_newton *s, const double *x) {
@@ -93,6 +97,22 @@ static void mdl_newton_move(mdl_newton *s) {
   for (int i = 0; i < s->n; ++i) s->work[i] += s->moved ? -2.0 * s->nominal[i] : s->nominal[i];
   ++s->moved;
   mdl_newton_begin(s, MDL_DAMPED);
+}
+
+/* Several unknowns, with exponentials of them: where all else has failed these go on as straight lines beyond a limit
+ * of their exponents, which is doubled from solution to solution until there is none. Whether there is more to try. */
+static inline int mdl_newton_limit(mdl_newton *s) {
+  const int solved = s->phase == MDL_SOLVED;
+  if (solved ? s->limit == INFINITY : s->limited) return 0;
+  for (int i = 0; i < s->n; ++i) {
+    s->work[i] = solved ? s->x[i] : s->work[i] + (s->moved == 2 ? s->nominal[i] : 0.0);
+    s->work[2 * s->n + i] = 0.0;
+  }
+  s->limit = !solved ? MDL_FIRST_LIMIT : s->limit < MDL_LAST_LIMIT ? 2.0 * s->limit : INFINITY;
+  s->limited = 1;
+  s->moved = s->looks = 0;
+  mdl_newton_begin(s, MDL_DAMPED);
+  return 1;
 }
 
 /* Where the search looks after look k. */

@@ -10,11 +10,12 @@ from lacuna.codegen import flat
 from lacuna.codegen.emit.functions.linear import solved
 from lacuna.codegen.emit.text.body import Body
 from lacuna.codegen.emit.text.c_text import c_comment
+from lacuna.codegen.emit.text.limited import has_exponentials, limited
 from lacuna.codegen.errors import Span
 from lacuna.codegen.structure.causal import Division, LinearBlock, NonlinearBlock, Step, expressions_of
 from lacuna.codegen.structure.sorting.tearing import Assignment
 from lacuna.codegen.structure.system import Row
-from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.symbolic.expr import Expr, var
 
 
 def comment(source: flat.Equation, text: str | None = None) -> str:
@@ -160,7 +161,12 @@ class StepWriter:
         nominal = ", ".join(body.size(self._nominal(u)) for u in step.tears)
         body.line(f"const double {block}_nominal[{size}] = {{{nominal}}};")
         fields = f".n = {size}, .x = {block}_x, .work = {block}_work, .nominal = {block}_nominal"
-        body.line(f"mdl_newton {block} = {{{fields}}};")
+        bounded = size > 1 and has_exponentials(step)
+        body.line(f"mdl_newton {block} = {{{fields}{', .limit = INFINITY' if bounded else ''}}};")
+        if bounded:
+            limit = var(f"limit of {names[0]}")
+            body.declare(limit, "INFINITY")
+            step = limited(step, limit)
         noted = any(map(body.doubts.inside, expressions_of(step)))
         if noted:  # at points that the iteration only looks at does not count
             body.line(f"const int {block}_unsettled = m->unsettled;")
@@ -169,15 +175,19 @@ class StepWriter:
                 body.line(f"m->unsettled = {block}_unsettled;")
             for k, name in enumerate(names):
                 body.line(f"{name} = {block}_x[{k}];")
+            if bounded:
+                body.line(f"{body.names.leaf(limit)} = {block}.limit;")
             for a in step.assignments:
                 self._assignment(a, declare=False)
+            if bounded:
+                body.line(f"if ({block}.phase == MDL_SOLVED && mdl_newton_limit(&{block})) continue;")
             body.line(f"if ({block}.phase == MDL_SOLVED) break;")
-            self._look(step, block)
+            self._look(step, block, f" && !mdl_newton_limit(&{block})" if bounded else "")
         body.line(f"mdl_newton_tell(m, &{block}, {self._equation_index(step.residuals[0].source)});")
         for a in (*step.tears, *(a.unknown for a in step.assignments)):
             body.define(a)
 
-    def _look(self, step: NonlinearBlock, block: str) -> None:
+    def _look(self, step: NonlinearBlock, block: str, unless: str) -> None:
         body, size = self._body, len(step.tears)
         for row in step.residuals:
             self.note(row)
@@ -185,7 +195,7 @@ class StepWriter:
         body.line(f"double {block}_r[{2 * size}] = {{{residuals}}};")
         body.line(f"const int {block}_looked = mdl_newton_look(&{block}, {block}_r);")
         equation = self._equation_of(step.residuals, f"{block}.singular")
-        with body.scope(f"if ({block}.phase == MDL_FAILED)", []):
+        with body.scope(f"if ({block}.phase == MDL_FAILED{unless})", []):
             body.line(f"mdl_newton_tell(m, &{block}, {self._equation_index(step.residuals[0].source)});")
             body.line(f"return mdl_fail(m, MDL_FAILURE_NEWTON, {equation}, 0.0);")
         body.line(f"if ({block}_looked) continue;")

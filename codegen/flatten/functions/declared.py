@@ -14,12 +14,7 @@ from lacuna.codegen.flatten.classes.types import EXTERNAL
 from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.functions.annotated import with_derivatives
-from lacuna.codegen.flatten.functions.declared_units import (
-    check_body,
-    is_looked_at,
-    note_units,
-    with_declared_units,
-)
+from lacuna.codegen.flatten.functions.declared_units import check_body, is_looked_at, note_units, with_declared_units
 from lacuna.codegen.flatten.functions.effort import MAX_INLINE_DEPTH, is_small
 from lacuna.codegen.flatten.functions.fitting import SizeVaries, blank, counts_evaluated, evaluated, fit
 from lacuna.codegen.flatten.functions.interpret import interpret
@@ -42,6 +37,7 @@ from lacuna.codegen.flatten.names.values import (
 )
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.symbolic.leaves import holds
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.references import references
 from lacuna.suggest import did_you_mean
@@ -129,7 +125,7 @@ def _results(signature: Signature, arguments: dict[str, Value], e: ast.Call, sco
         try:
             results = interpret(signature, arguments, context, e.span)
             if known or makes_events or is_small(results, arguments):
-                results = results if makes_events else [_without_events(r) for r in results]
+                results = results if makes_events else list(map(_without_events, results))
                 if is_looked_at(scope):
                     results = with_declared_units(signature, arguments, results, context, e.span)
                 return results
@@ -277,7 +273,7 @@ def _eventful(n: Expr) -> bool:
 
 def _has_events(arguments: list[Value]) -> bool:
     """Would inlining put event-generating arguments under the noEvent of the function's body?"""
-    return any(_eventful(n) for a in arguments for e in expressions_of(a) for n in ex.walk(e))
+    return any(holds(e, _eventful) for a in arguments for e in expressions_of(a))
 
 
 def _without_events(value: Value) -> Value:
@@ -286,7 +282,7 @@ def _without_events(value: Value) -> Value:
     def quiet(item: Expr | str | Record) -> Expr | str | Record:
         if isinstance(item, Record):
             return _without_events(item)
-        if isinstance(item, Expr) and item.op not in ("const", "var") and any(map(_eventful, ex.walk(item))):
+        if isinstance(item, Expr) and item.op not in ("const", "var") and holds(item, _eventful):
             if item.op == "if" and item.type == ex.INTEGER:  # noEvent of a whole one would be Integer(e) of a literal
                 return ex.if_else(*map(quiet, item.args))
             return ex.special("noEvent", item, type=item.type)

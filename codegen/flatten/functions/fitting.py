@@ -29,7 +29,7 @@ from lacuna.codegen.flatten.names.values import (
 )
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
-from lacuna.codegen.symbolic.leaves import always_reads
+from lacuna.codegen.symbolic.leaves import always_reads, holds
 from lacuna.codegen.syntax import ast
 from lacuna.suggest import did_you_mean
 
@@ -215,13 +215,17 @@ def counts_evaluated(arguments: dict[str, Value], scope: Scope, span: Span) -> d
     return {n: evaluated(a, scope, span, n) if whole(a) else a for n, a in arguments.items()}
 
 
+def _is_unset(n: Expr) -> bool:
+    return n.op == "unset"
+
+
 def result_of(local: Local, value: Value, cls: ast.Class, context: Context) -> Value:
     """The value of an output. What some case alone leaves unassigned is no value: a run that meets the case ends, and a
     warning says so (12.4.4). Raises F033 for what no case assigns."""
     span = local.declaration.span
 
     def assigned(s: Expr | str) -> Expr | str:
-        missing = [n for n in ex.walk(s) if n.op == "unset"] if isinstance(s, Expr) else []
+        missing = [n for n in ex.walk(s) if _is_unset(n)] if isinstance(s, Expr) and holds(s, _is_unset) else []
         if missing and (always_reads(s, missing) or any(n.type == BOOLEAN for n in missing)):
             message = f"the output {local.name} of {cls.name} is not assigned in every case"
             others = {d.name for d in signature_of(cls, context).locals} - {local.name}

@@ -8,6 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 import re
 import sys
+from types import FrameType
 
 import numpy as np
 import pytest
@@ -103,6 +104,54 @@ def test_costs_grow_with_the_model_and_no_faster(name: str, monkeypatch: pytest.
         assert double[cost] <= 2.1 * small[cost], cost
     assert double["code"] <= 1.25 * small["code"]  # more passes of the same loops; the ground's current is a longer sum
     assert small["entries"] <= 4 * 150
+
+
+SPECTRUM = """model M
+  function spread "Not inlined: how often its loop runs is not known before"
+    input Real u[:];
+    output Real a[size(u, 1)];
+  protected
+    Integer i = 1;
+  algorithm
+    a := u;
+    while i < size(u, 1) and u[i] < 1e9 loop
+      a[i] := u[i] + a[i + 1];
+      i := i + 1;
+    end while;
+  end spread;
+  function scaled
+    input Real x;
+    output Real y = 2*x;
+  algorithm
+  end scaled;
+  Real u[{n}] = {{sin(k*time) for k in 1:{n}}};
+  Real a[{n}];
+equation
+  when time > 0.5 then
+    a = scaled(spread(u));
+  end when;
+end M;
+"""
+
+
+def test_results_of_a_function_do_not_each_look_at_all_of_its_inputs(tmp_path: Path) -> None:
+    def calls(n: int) -> int:
+        """While expressions are made and looked at; which result follows which input is asked later, of each pair."""
+        count = 0
+
+        def profile(frame: FrameType, event: str, argument: object) -> None:
+            nonlocal count
+            file = Path(frame.f_code.co_filename)
+            count += event == "call" and ("flatten" in file.parts or file.parent.name == "symbolic")
+
+        name = write_model(tmp_path, SPECTRUM.format(n=n))
+        with own_table():
+            sys.setprofile(profile)
+            translate(name)
+            sys.setprofile(None)
+        return count
+
+    assert calls(400) <= 2.2 * calls(200)
 
 
 SHARED = """model M

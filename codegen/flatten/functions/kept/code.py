@@ -89,6 +89,7 @@ def emitted_call(signature: Signature, arguments: dict[str, Value], context: Con
     ]
     units = {DONE: "", **{d.name: d.unit for d in signature.locals}}
     context.function_units[base] = units.get(function.outputs[0], "") if function.outputs else ""
+    own = [_argument(i, function) for i in function.inputs]
     results: list[Value] = []
     for number, name in enumerate(function.outputs):
         shape, kind = function.shapes[name], function.types[name]
@@ -98,7 +99,7 @@ def emitted_call(signature: Signature, arguments: dict[str, Value], context: Con
         items = []
         for position, index in enumerate(indices(shape) if shape else [()]):
             chosen = replace(source, output=number, element=position)
-            selected = _selected(function, chosen, name, index, units.get(name, ""), context)
+            selected = _selected(function, own, chosen, name, index, units.get(name, ""), context)
             items.append(ex.call(selected, *call_arguments, type=kind))
         results.append(Array(shape, tuple(items)) if shape else items[0])
     found = iter(results)
@@ -117,14 +118,15 @@ def _matching(inputs: dict[str, Value], arguments: dict[str, Value], span: Span)
 
 
 def _selected(
-    function: flat.Function, source: Source, name: str, index: tuple[int, ...], unit: str, context: Context
-) -> str:
-    """A function that calls `function` and gives one scalar of one of its results."""
+    function: flat.Function, own: list[Expr], source: Source, name: str, index: tuple[int, ...], unit: str,
+    context: Context,
+) -> str:  # fmt: skip
+    """A function that calls `function` with its inputs, `own`, and gives one scalar of one of its results."""
     selected = element_name(function.name, name, index)
     if selected in context.functions:
         return selected
     kind, shape = function.types[name], function.shapes[name]
-    call = ex.call(function.name, *(_argument(i, function) for i in function.inputs), type=kind)
+    call = ex.call(function.name, *own, type=kind)
     targets = tuple(n if n == name else None for n in function.outputs)
     picked = element(name, kind, tuple(map(ex.const, index))) if index else ex.var(name, kind)
     inputs = {n: function.shapes[n] for n in function.inputs}

@@ -170,6 +170,7 @@ static int mdl_solve(int n, double *a, double *b) {
 
 enum { MDL_DAMPED, MDL_SEARCH, MDL_BRACKET, MDL_FOLLOW, MDL_SOLVED, MDL_FAILED };
 enum { MDL_ITERATIONS = 50, MDL_CORRECTIONS = 10, MDL_HALVINGS = 12, MDL_DOUBLINGS = 100, MDL_LOOKS = 1000 };
+enum { MDL_FIRST_LIMIT = 32, MDL_LAST_LIMIT = 256 }; /* of exponents, whose squares are numbers still */
 
 /* A nonlinear block of n unknowns x. `work` holds 4 n numbers: the start, the last step, the weights of the residuals
  * or, where a path is followed, the residual at the start, and the last point of the path. */
@@ -186,6 +187,8 @@ typedef struct {
                                               it was found, and how far was searched on the other side */
   int found;                               /* by which look */
   double path, reached, stride;            /* several: s, the last s that was reached, the step */
+  double limit;                            /* several: of exponents, INFINITY: none; */
+  int limited;                             /* there has been one */
 } mdl_newton;
 
 static void mdl_newton_place(mdl_newton *s, const double *x) {
@@ -244,6 +247,22 @@ static void mdl_newton_move(mdl_newton *s) {
   for (int i = 0; i < s->n; ++i) s->work[i] += s->moved ? -2.0 * s->nominal[i] : s->nominal[i];
   ++s->moved;
   mdl_newton_begin(s, MDL_DAMPED);
+}
+
+/* Several unknowns, with exponentials of them: where all else has failed these go on as straight lines beyond a limit
+ * of their exponents, which is doubled from solution to solution until there is none. Whether there is more to try. */
+static inline int mdl_newton_limit(mdl_newton *s) {
+  const int solved = s->phase == MDL_SOLVED;
+  if (solved ? s->limit == INFINITY : s->limited) return 0;
+  for (int i = 0; i < s->n; ++i) {
+    s->work[i] = solved ? s->x[i] : s->work[i] + (s->moved == 2 ? s->nominal[i] : 0.0);
+    s->work[2 * s->n + i] = 0.0;
+  }
+  s->limit = !solved ? MDL_FIRST_LIMIT : s->limit < MDL_LAST_LIMIT ? 2.0 * s->limit : INFINITY;
+  s->limited = 1;
+  s->moved = s->looks = 0;
+  mdl_newton_begin(s, MDL_DAMPED);
+  return 1;
 }
 
 /* Where the search looks after look k. */
@@ -571,15 +590,6 @@ static int mdl_event(mdl_data *m, double t, double *x, const double *xdot, const
   return 0;
 }
 
-static int mdl_check(mdl_data *m, double t, const double *x, const double *xdot, const double *v) {
-  (void)m;
-  (void)t;
-  (void)x;
-  (void)xdot;
-  (void)v;
-  return 0;
-}
-
 static int mdl_nominals(mdl_data *m, double *nominal) {
   const double V_t = m->p[3];
   const double tmp1 = fabs(V_t);
@@ -651,7 +661,6 @@ static const mdl_descriptor mdl_model = {
   .time_relations = mdl_time_relations,
   .next_time_event = mdl_next_time_event,
   .event = mdl_event,
-  .check = mdl_check,
   .nominals = mdl_nominals,
   .divisions = mdl_divisions,
   .branches = mdl_branches,

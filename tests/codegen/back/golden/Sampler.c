@@ -74,6 +74,10 @@ static const unsigned char mdl_affine_guards[] = {
   1
 };
 
+static const unsigned char mdl_least_sizes[] = {
+  1
+};
+
 static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double value) {
   m->failure = (mdl_failure){kind, equation, -1, value, 0.0};
   return 1;
@@ -106,7 +110,7 @@ static int mdl_samples(const mdl_data *m, double *start, double *interval) {
   return 0;
 }
 
-static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double *v) {
+static inline __attribute__((always_inline)) int mdl_explicit(mdl_data *m, double t, const double *x, double *xdot, double *v) {
   (void)t;
   (void)v;
   const double u = m->d[0];
@@ -115,6 +119,35 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
   /* Sampler.mo:10  der(x) = rate*(u - x) */
   const double der_x_2 = rate * (u - x_2);
   xdot[0] = der_x_2;
+  return 0;
+}
+
+static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double *v) {
+  return mdl_explicit(m, t, x, xdot, v);
+}
+
+static int mdl_stages(mdl_data *m, const mdl_scheme *scheme, double t, double h, const double *x, double *restrict k,
+                      double *restrict end, double *restrict v) {
+  enum { N = 1 };
+  const int last = scheme->stages - 1;
+  for (int j = 1; j <= last; ++j) {
+    const double *a = scheme->weights + j * last;
+    double at[N];
+    for (int i = 0; i < N; ++i)
+      at[i] = x[i];
+    for (int l = 0; l < j; ++l) {
+      const double weight = h * a[l];
+      for (int i = 0; i < N; ++i)
+        at[i] += weight * k[l * N + i];
+    }
+    for (int i = 0; i < N; ++i)
+      end[i] = at[i];
+    m->undetermined = m->unsettled = 0;
+    m->brief = j < last;
+    const int status = mdl_explicit(m, t + scheme->nodes[j] * h, at, k + j * N, v);
+    m->brief = 0;
+    if (status) return status;
+  }
   return 0;
 }
 
@@ -221,7 +254,7 @@ static int mdl_check(mdl_data *m, double t, const double *x, const double *xdot,
 
 static int mdl_nominals(mdl_data *m, double *nominal) {
   (void)m;
-  nominal[0] = -0.2;
+  nominal[0] = 0.2;
   nominal[1] = 0.7;
   nominal[2] = 0.2;
   return 0;
@@ -296,11 +329,13 @@ static const mdl_descriptor mdl_model = {
   .time_relations = mdl_time_relations,
   .next_time_event = mdl_next_time_event,
   .event = mdl_event,
-  .check = mdl_check,
   .nominals = mdl_nominals,
   .divisions = mdl_divisions,
   .affine_guards = mdl_affine_guards,
   .guard_rates = mdl_guard_rates,
+  .least_sizes = mdl_least_sizes,
+  .check = mdl_check,
+  .stages = mdl_stages,
 };
 
 const mdl_descriptor *mdl_descriptor_get(void);

@@ -152,7 +152,7 @@ static int mdl_samples(const mdl_data *m, double *start, double *interval) {
   return 0;
 }
 
-static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double *v) {
+static inline __attribute__((always_inline)) int mdl_explicit(mdl_data *m, double t, const double *x, double *xdot, double *v) {
   (void)t;
   const double J1 = m->p[0];
   const double ratio = m->p[2];
@@ -205,6 +205,35 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
     v[4] = der_der_phi1_;
     v[7] = der_w2_;
     v[6] = der_der_phi2_;
+  }
+  return 0;
+}
+
+static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double *v) {
+  return mdl_explicit(m, t, x, xdot, v);
+}
+
+static int mdl_stages(mdl_data *m, const mdl_scheme *scheme, double t, double h, const double *x, double *restrict k,
+                      double *restrict end, double *restrict v) {
+  enum { N = 2 };
+  const int last = scheme->stages - 1;
+  for (int j = 1; j <= last; ++j) {
+    const double *a = scheme->weights + j * last;
+    double at[N];
+    for (int i = 0; i < N; ++i)
+      at[i] = x[i];
+    for (int l = 0; l < j; ++l) {
+      const double weight = h * a[l];
+      for (int i = 0; i < N; ++i)
+        at[i] += weight * k[l * N + i];
+    }
+    for (int i = 0; i < N; ++i)
+      end[i] = at[i];
+    m->undetermined = m->unsettled = 0;
+    m->brief = j < last;
+    const int status = mdl_explicit(m, t + scheme->nodes[j] * h, at, k + j * N, v);
+    m->brief = 0;
+    if (status) return status;
   }
   return 0;
 }
@@ -302,15 +331,6 @@ static int mdl_event(mdl_data *m, double t, double *x, const double *xdot, const
   return 0;
 }
 
-static int mdl_check(mdl_data *m, double t, const double *x, const double *xdot, const double *v) {
-  (void)m;
-  (void)t;
-  (void)x;
-  (void)xdot;
-  (void)v;
-  return 0;
-}
-
 static int mdl_nominals(mdl_data *m, double *nominal) {
   const double tau_max = m->p[4];
   const double w_ref = m->p[5];
@@ -391,11 +411,11 @@ static const mdl_descriptor mdl_model = {
   .time_relations = mdl_time_relations,
   .next_time_event = mdl_next_time_event,
   .event = mdl_event,
-  .check = mdl_check,
   .nominals = mdl_nominals,
   .divisions = mdl_divisions,
   .affine_guards = mdl_affine_guards,
   .guard_rates = mdl_guard_rates,
+  .stages = mdl_stages,
 };
 
 const mdl_descriptor *mdl_descriptor_get(void);
