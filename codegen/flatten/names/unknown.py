@@ -7,7 +7,6 @@ from dataclasses import replace
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.names.scope import (
-    PRIMITIVES,
     Scope,
     base_classes,
     find_class,
@@ -15,6 +14,7 @@ from lacuna.codegen.flatten.names.scope import (
     own_or_inherited,
 )
 from lacuna.codegen.library.classes import HOME_PACKAGE, Library
+from lacuna.codegen.library.predefined import PRIMITIVES
 from lacuna.codegen.library.search_path import WITHOUT_MODELICA
 from lacuna.codegen.syntax import ast
 from lacuna.suggest import LISTED, did_you_mean, nearest, question

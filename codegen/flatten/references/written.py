@@ -9,10 +9,11 @@ from dataclasses import fields, is_dataclass
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.instance import Absent, ArrayNode, Instance, Node
 from lacuna.codegen.flatten.classes.types import resolve_type
-from lacuna.codegen.flatten.names.scope import PRIMITIVES, Scope, find_class
+from lacuna.codegen.flatten.names.scope import Scope, find_class
 from lacuna.codegen.flatten.names.unknown import unknown_function
 from lacuna.codegen.flatten.references.class_values import from_class
 from lacuna.codegen.flatten.references.references import member
+from lacuna.codegen.library.predefined import PRIMITIVES
 from lacuna.codegen.syntax import ast
 
 MEANINGLESS = ("R002", "R003", "R004")  # no variable, no element, no function; other faults are those of evaluation
