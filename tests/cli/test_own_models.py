@@ -28,6 +28,7 @@ FILES = {
     "Names.mo": 'model Names parameter Real p(unit="m") = 2; Real v(unit="m/s", start=1, fixed=true); Real back = -v; '
     'Real a = p + p; Real e = v*v/p; parameter Real T(unit="s") = 3; constant Real c = 3; '
     "equation der(v) = -v/T; end Names;",
+    "Row.mo": "model Row parameter Integer n = 2; parameter Real v[n] = fill(1, n); Real s = sum(v)*time; end Row;",
     "again/Alpha/package.mo": "package Alpha end Alpha;",
     "Folder.mo/readme.txt": "no model",
     "empty/readme.txt": "no package",
@@ -63,6 +64,13 @@ def refused(*words: str) -> str:
     assert result.exit_code == 1, result.output
     assert isinstance(result.exception, SystemExit), result.exception
     return result.output
+
+
+@pytest.mark.parametrize("words", [("v[3]=9", "n=3"), ("n=3", "v[3]=9")])
+def test_sizes_are_set_before_what_they_make(words: tuple[str, str]) -> None:
+    given = [part for word in words for part in ("-p", word)]
+    assert answer("simulate", "Row.mo", *given, "--out", "run")["last"]["s"] == 11
+    assert "no parameter called v[4]" in refused("simulate", "Row.mo", *given, "-p", "v[4]=1")
 
 
 @pytest.mark.parametrize(
