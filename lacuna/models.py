@@ -74,12 +74,11 @@ def load(
     try:
         return Model(source, source.compiled()).with_parameters(parameters or {})
     except Diagnostic as finding:
-        values = as_numbers(
-            {n: v for n, v in (parameters or {}).items() if "[" not in n}, {}
-        )  # elements come to be by them
-        if finding.code != NO_VALUE or not values:
+        whole = {n: v for n, v in (parameters or {}).items() if "[" not in n}  # elements come to be by them
+        if finding.code != NO_VALUE or not whole:
             raise
-        return Model(source, source.compiled(values), values).with_parameters(parameters)
+        values = as_numbers(whole, {})
+        return Model(source, source.compiled(values), values).with_parameters(parameters or {})
 
 
 class Model:

@@ -17,6 +17,7 @@ from lacuna.codegen.flatten.functions.annotated import with_derivatives
 from lacuna.codegen.flatten.functions.declared_units import (
     check_body,
     is_looked_at,
+    mere_numbers,
     note_units,
     with_declared_units,
 )
@@ -119,7 +120,7 @@ def _results(signature: Signature, arguments: dict[str, Value], e: ast.Call, sco
     if signature.external is not None and signature.external.external.function not in GENERATORS:
         return call_external(signature, arguments, e, scope)
     items = [a for v in arguments.values() for a in scalars(v)]
-    known = not any(is_open(a) for a in items)
+    known = not any(map(is_open, items))
     if is_looked_at(scope) and not (known and context.library.foreign_package(cls.span.file)):
         check_body(signature, arguments, context, e.span)
     makes_events = signature.makes_events
@@ -127,12 +128,11 @@ def _results(signature: Signature, arguments: dict[str, Value], e: ast.Call, sco
     if known or (len(context.calls) < MAX_INLINE_DEPTH and (makes_events or not _has_events(items))):
         context.calls.append((cls.path, scope.conditional))
         try:
-            results = interpret(signature, arguments, context, e.span)
+            results = interpret(signature, mere_numbers(arguments), context, e.span)
             if known or makes_events or is_small(results, arguments):
                 results = results if makes_events else [_without_events(r) for r in results]
-                if is_looked_at(scope):
-                    results = with_declared_units(signature, arguments, results, context, e.span)
-                return results
+                looked_at = is_looked_at(scope)
+                return with_declared_units(signature, arguments, results, context, e.span) if looked_at else results
         except AtRunTime:
             pass
         except SizeVaries:

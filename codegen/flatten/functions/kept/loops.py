@@ -16,6 +16,7 @@ from lacuna.codegen.flatten.names.values import Array, Record, Value, items_of, 
 from lacuna.codegen.flatten.references.iterators import iterate
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import INTEGER, Expr
+from lacuna.codegen.symbolic.rewrite import expressions
 from lacuna.codegen.syntax import ast
 
 RESULT = "result of the loop"  # which no variable can be called
@@ -46,7 +47,6 @@ class _Loop:
         self.e, self.begun, self.fresh, self.element = e, begun, fresh, element
         self.value: Value | None = None  # one of those that are reduced
         self.start = ex.ZERO
-        self.read: list[Expr] = []
         self.own = {RESULT}
 
     def call(self, scope: Scope, name: str) -> Expr:
@@ -55,7 +55,7 @@ class _Loop:
             raise AtRunTime("an iterator", self.e.span)  # one of them runs over nothing
         body = [flat.Assign(RESULT, self.start, self.e.span), *body]
         given = dict(_variables(scope.locals.values()))
-        names = [n for e in self.read for n in ex.walk(e) if n.op == "var" and n.value not in self.own]
+        names = [n for e in expressions(body) for n in ex.walk(e) if n.op == "var" and n.value not in self.own]
         inputs = {str(n.value): given.get(str(n.value), n) for n in names}
         shapes = {n: shape_of(v) for n, v in inputs.items()} | {RESULT: ()}
         types = {n: scalars(v)[0].type for n, v in inputs.items()} | {RESULT: self.start.type}
@@ -77,7 +77,6 @@ class _Loop:
             low, step, high = bounds(last.range, scope)
             variable = self.fresh(last.name)
             self.own.add(variable)
-            self.read += [low, step, high]
             inner = scope.with_locals(**{last.name: ex.var(variable, INTEGER)})
             return [flat.For(variable, low, step, high, self._over(rest, inner), self.e.span)]
         return [s for v in values for s in self._over(rest, scope.with_locals(**{last.name: v}))]
@@ -86,7 +85,6 @@ class _Loop:
         self.value = lower(self.e.body, scope)
         self.start, join = self.begun(self.value)
         item = scalars(self.value)[self.element]
-        self.read.append(item)
         return flat.Assign(RESULT, join(ex.var(RESULT, self.start.type), item), self.e.span)
 
 
