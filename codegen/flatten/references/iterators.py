@@ -107,6 +107,18 @@ def range_values(e: ast.Range, scope: Scope) -> Array:
     return _numbers(e, kind(first.value), 1 if step is None else kind(step.value), last.value, scope)
 
 
+def varying_bounds(iterator: ast.Iterator, scope: Scope) -> tuple[Expr, Expr, Expr] | None:
+    """First value, step and last value of a range of Integers that is not known at translation."""
+    e = iterator.range
+    if not isinstance(e, ast.Range):
+        return None
+    step = lower_scalar(e.step, scope) if e.step else ex.const(1)
+    first, last = (lower_scalar(b, scope) for b in (e.first, e.last))
+    if all(is_known_here(b, scope) for b in (first, last)) or {first.type, step.type, last.type} != {INTEGER}:
+        return None
+    return first, known(step, scope, e.span, "the step of the range"), last
+
+
 def _moving(e: ast.Range, first: Expr, step: Expr | None, last: Expr, scope: Scope) -> Array | None:
     """The values of a range of Integers whose bounds vary and are a known number apart; None for any other."""
     whole = first.type == last.type == INTEGER and not enumeration_of(first, scope.context)
