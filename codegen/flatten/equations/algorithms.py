@@ -228,12 +228,19 @@ def assignment(item: ast.Assignment, scope: Scope) -> list[flat.Statement]:
 def _chosen_by_itself(target: Expr | str) -> bool:
     """Whether elements of an array decide which of them is meant. Otherwise all but one stay what they are, and the
     value of that one may be read from any."""
-    elements, conditions = set(), set()
-    while isinstance(target, Expr) and target.op == "if":
-        conditions |= leaves(target.args[0])
-        elements.add(target.args[1])
-        target = target.args[2]
-    return not conditions.isdisjoint({*elements, target})
+    choices = _choices(target, TRUE) if isinstance(target, Expr) else {}
+    return not choices.keys().isdisjoint(leaf for condition in choices.values() for leaf in leaves(condition))
+
+
+def _choices(target: Expr, condition: Expr) -> dict[Expr, Expr]:
+    """The elements that a target by subscripts that vary may mean, and when it does."""
+    if target.op != "if":
+        return {target: condition}
+    first, here, there = target.args
+    found = _choices(here, ex.logical_and(condition, first))
+    for element, when in _choices(there, ex.logical_and(condition, ex.logical_not(first))).items():
+        found[element] = ex.logical_or(found[element], when) if element in found else when
+    return found
 
 
 def _chosen(
@@ -247,16 +254,12 @@ def _chosen(
 
     if not isinstance(target, Expr) or target.op != "if" or not isinstance(value, Expr):
         return [(target, value)]
-    elements: list[tuple[Expr, Expr]] = []
-    none_before = TRUE
-    while isinstance(target, Expr) and target.op == "if":
-        condition, element, target = target.args
-        elements.append((element, ex.logical_and(none_before, condition)))
-        none_before = ex.logical_and(none_before, ex.logical_not(condition))
-    if target.op == "var":
-        elements.append((target, none_before))
-        return [(element, ex.if_else(chosen, value, stays(element))) for element, chosen in elements]
-    return [(e, ex.if_else(chosen, value, ex.if_else(none_before, target, stays(e)))) for e, chosen in elements]
+    choices = _choices(target, TRUE)
+    outside = {e: when for e, when in choices.items() if ex.is_nothing(e)}
+    others = {e: stays(e) for e in choices if e not in outside}
+    for nothing, when in outside.items():
+        others = {e: ex.if_else(when, nothing, rest) for e, rest in others.items()}
+    return [(e, ex.if_else(choices[e], value, rest)) for e, rest in others.items()]
 
 
 class Carried(dict[str, str]):
