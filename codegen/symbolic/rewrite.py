@@ -83,7 +83,7 @@ class Rewriter:
 
     def variable(self, v: flat.Variable) -> flat.Variable:
         fields = ("binding", "start", "fixed", "min", "max", "nominal")
-        given = {f: e for f in fields if (e := getattr(v, f)) is not None and e.op != "const"}
+        given = {f: e for f in fields if (e := getattr(v, f)) is not None}
         changed = {f: new for f, e in given.items() if (new := self.expression(e)) is not e}
         return replace(v, **changed) if changed else v
 

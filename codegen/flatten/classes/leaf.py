@@ -152,8 +152,8 @@ class Leaf:
         raise Diagnostic("R024", f"{self.name} is {kind}", self.span, hint)
 
     def _holding(self) -> Modifier:
-        """The modifier whose value holds at all times where this is no parameter."""
-        if self.is_structural or self.modifier.scope is None:
+        """The modifier whose value holds at all times where this is no parameter (12.3)."""
+        if self.variability == "parameter" or self.modifier.scope is None:
             return self.modifier
         return replace(self.modifier, scope=replace(self.modifier.scope, pure=True))
 

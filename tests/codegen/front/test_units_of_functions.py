@@ -127,7 +127,7 @@ end M;"""
 @pytest.mark.parametrize(
     ("uses", "code"),
     [
-        ('Real f(unit = "N") = weight(2); parameter Real p(unit = "N") = 2*weight(3);', None),
+        ('Real f(unit = "N") = weight(2); parameter Real p(unit = "N", start = weight(1)) = weight(3);', None),
         ('Real f(unit = "m") = weight(2);', "U001"),
         ('parameter Real p(unit = "m") = weight(2); Real y = p*time;', "U001"),
         ('Real l(unit = "m") = 3; Real y = l + weight(2);', "U002"),
@@ -140,7 +140,8 @@ def test_the_result_of_numbers_has_the_unit_that_is_declared(tmp_path: Path, use
     if code is None:
         model = flatten_text(tmp_path, text)
         assert model.warnings == []
-        assert type(model.equations[0].rhs.value) is float  # nothing is left of it
+        left = (model.equations[0].rhs, model.variables["p"].binding, model.variables["p"].start)
+        assert [type(e.value) for e in left] == [float] * 3  # nothing is left of it
         return
     with pytest.raises(Diagnostic) as refused:
         flatten_text(tmp_path, text)
