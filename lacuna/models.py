@@ -74,11 +74,10 @@ def load(
     try:
         return Model(source, source.compiled()).with_parameters(parameters or {})
     except Diagnostic as finding:
-        whole = {n: v for n, v in (parameters or {}).items() if "[" not in n}  # elements come to be by them
-        if finding.code != NO_VALUE or not whole:
+        if finding.code != NO_VALUE or not parameters:
             raise
-        values = as_numbers(whole, {})
-        return Model(source, source.compiled(values), values).with_parameters(parameters or {})
+        values = as_numbers(parameters, {})
+        return Model(source, source.compiled(values), values).with_parameters(parameters)
 
 
 class Model:
