@@ -60,23 +60,26 @@ def _over_range(e: ast.Expression, scope: Scope) -> tuple[ast.Comprehension | No
     """`e for i in r`, or part `a:b` of an array as `x[i] for i in a:b`; with what `end` is in r."""
     if isinstance(e, ast.Comprehension):
         return (None if e.braces else e), scope
-    subscripts = (e.subscripts[-1] if isinstance(e, ast.Ref) else None) or ()
-    ranges = [k for k, s in enumerate(subscripts) if isinstance(s, ast.Range | ast.Colon)]
-    if len(ranges) != 1 or not isinstance(subscripts[ranges[0]], ast.Range):
+    written = enumerate(e.subscripts if isinstance(e, ast.Ref) else ())
+    parts = [(k, at, s) for k, subscripts in written for at, s in enumerate(subscripts or ())]
+    parts = [part for part in parts if isinstance(part[2], ast.Range | ast.Colon)]
+    if len(parts) != 1 or not isinstance(parts[0][2], ast.Range):
         return None, scope
-    at, index = ranges[0], "index of the range"  # which no variable can be called
-    iterator = ast.Iterator(e.span, index, subscripts[at])
-    by = (*subscripts[:at], ast.Ref(e.span, (index,), (None,)), *subscripts[at + 1 :])
-    element, whole = (replace(e, subscripts=(*e.subscripts[:-1], s)) for s in (by, None))
-    return ast.Comprehension(e.span, element, [iterator]), replace(
-        scope, end=ex.const(shape_of(lower(whole, scope))[at])
-    )
+    ((k, at, bounds),) = parts
+    index = ast.Ref(e.span, ("index of the range",), (None,))  # which no variable can be called
+    by = (*e.subscripts[k][:at], index, *e.subscripts[k][at + 1 :])
+    element = replace(e, subscripts=(*e.subscripts[:k], by, *e.subscripts[k + 1 :]))
+    whole = replace(e, names=e.names[: k + 1], subscripts=(*e.subscripts[:k], None))
+    end = ex.const(shape_of(lower(whole, scope))[at])
+    return ast.Comprehension(e.span, element, [ast.Iterator(e.span, index.names[0], bounds)]), replace(scope, end=end)
 
 
 def _begun(
     e: ast.Call, value: Value, join: Callable[[Expr, Expr], Expr], empty: Expr | None, scope: Scope
 ) -> tuple[Expr, Callable[[Expr, Expr], Expr]]:
     """What the reduction of such values starts with, and what goes on with it. Raises R051 for what is none."""
+    if shape_of(value) and not isinstance(e.args[0], ast.Comprehension):  # rows: how many scalars there are varies
+        raise AtRunTime("the size of an array", e.span)
     if shape_of(value) and str(e.function) != "sum":
         raise _of_scalars_only(e, shape_of(value))
     least = str(e.function) == "min"
