@@ -167,8 +167,9 @@ class Writer:
         return looped(e, begun, scope, self.function.name, self._fresh)
 
     def _fresh(self, stem: str) -> str:
+        """A name that no variable can have."""
         self.counter += 1
-        return f"{stem}_{self.counter}"
+        return f"{stem} {self.counter}"
 
     def _assignment(self, item: ast.Assignment, result: list[flat.Statement]) -> None:
         several = isinstance(item.target, ast.Tuple)
