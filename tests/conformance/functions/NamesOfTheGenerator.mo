@@ -18,6 +18,7 @@ model NamesOfTheGenerator "variables called as those that loops and simultaneous
     input Integer n;
     output Real s, u, v;
   protected
+    Real s_out = z[1], u_out = z[1], m = z[1], tmp1 = z[1], 'double' = z[1], NULL = z[1], next = z[1];
     Real j_2 = 2*z[1], before_1 = z[1], before_2 = z[2], before_3 = z[3], x[2] = {2, 3};
   algorithm
     s := sum(j_2*z[j] for j in 1:n) + before_1 + before_2 - before_3 + 2;
@@ -26,7 +27,7 @@ model NamesOfTheGenerator "variables called as those that loops and simultaneous
     u := x[1];
     v := x[2];
     for k in 1:n loop
-      v := v + 0*k;
+      v := v + 0*k*s_out*u_out*m*tmp1*'double'*NULL*next;
     end for;
   end g;
   Integer n = 2 + integer(time);
