@@ -174,17 +174,20 @@ class Model:
         )  # fmt: skip
 
     def with_parameters(self, parameters: Mapping[str, float]) -> Model:
-        """The same model with other values; translated anew where one of them decides its structure."""
+        """The same model with other values; translated anew where some decide its structure, and what it has."""
         if not parameters:
             return self
         known = {n: v for n, v in self.variables.items() if v.kind == "parameter"}
+        structural = as_numbers({n: v for n, v in parameters.items() if n in known and not known[n].settable}, known)
+        if structural:
+            fixed = self._fixed | structural
+            compiled = self._source.compiled(fixed) if fixed != self._fixed else self._compiled
+            others = {n: v for n, v in parameters.items() if n not in structural}
+            return Model(self._source, compiled, fixed, self._values).with_parameters(others)
         for name in parameters:
             self._refuse_input(name)
-        values = as_numbers(parameters, known)
-        settable = {n: v for n, v in values.items() if self._model.variable(n, "parameter", known).settable}
-        fixed = self._fixed | {n: v for n, v in values.items() if n not in settable}
-        compiled = self._source.compiled(fixed) if fixed != self._fixed else self._compiled
-        return Model(self._source, compiled, fixed, self._values | settable)
+            self._model.variable(name, "parameter", known)
+        return Model(self._source, self._compiled, self._fixed, self._values | as_numbers(parameters, known))
 
     def _refuse_input(self, name: str) -> None:
         if name in self.inputs:

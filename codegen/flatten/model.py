@@ -10,7 +10,7 @@ from pathlib import Path
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.instance import ArrayNode, Instance, Node
-from lacuna.codegen.flatten.classes.leaf import Leaf
+from lacuna.codegen.flatten.classes.leaf import Given, Leaf
 from lacuna.codegen.flatten.connections.balance import check_balance
 from lacuna.codegen.flatten.connections.by_annotation import check_annotations
 from lacuna.codegen.flatten.connections.connections import connection_equations
@@ -35,6 +35,7 @@ from lacuna.codegen.flatten.expressions.operators import Required
 from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier
+from lacuna.codegen.flatten.names.unknown import unknown_element
 from lacuna.codegen.flatten.references.written import check_written
 from lacuna.codegen.flatten.untaken import check_untaken
 from lacuna.codegen.library.classes import MODEL_KINDS, Library
@@ -63,7 +64,7 @@ def flatten(
         raise Diagnostic("F003", f"{cls.path} is a {what}, not a model to simulate", cls.span, hint)
     library.forget_views()
     context = Context(library, Path(cls.span.file).resolve().parent, LOWERING, cls.path)
-    top = Instance(context, cls, "", None, _outside_modifier(modifications or {}, cls.span))
+    top = Instance(context, cls, "", None, _outside_modifier(modifications or {}, cls.span, context.table(Given)))
     imbalance = "warning" if units == "warn" else "error"
     leaves, sections, buses = _instantiate(top, imbalance, modifications or {})
     context.finish()
@@ -97,13 +98,17 @@ def flatten(
     return model
 
 
-def _refuse_constants(leaves: Iterable[Leaf], modifications: Iterable[str]) -> None:
-    """Raises R031: what is declared constant is fixed by the model (4.5)."""
+def _refuse_what_is_not_set(leaves: Iterable[Leaf], modifications: Iterable[str], top: Instance) -> None:
+    """Raises R031 for what is declared constant, which is fixed by the model (4.5), R032 for elements there are not."""
     wanted = set(modifications)
+    elements = {n for n in wanted if "[" in n}
     for leaf in leaves:
+        elements.difference_update(leaf.names)
         if leaf.variability == "constant" and not wanted.isdisjoint(leaf.names):
             hint = "declare it as a parameter, or modify it in a model"
             raise Diagnostic("R031", f"{leaf.name} is a constant, no parameter to be set", leaf.span, hint)
+    if elements:
+        raise unknown_element(top.cls, min(elements), top.elements, top.cls.span)
 
 
 def _check_events(
@@ -159,13 +164,18 @@ def _note_findings(model: flat.FlatModel, context: Context, mode: str) -> None:
         context.warnings.append(Diagnostic("W007", message, hint=hint, severity="warning"))
 
 
-def _outside_modifier(modifications: dict[str, Expr | float], span: Span) -> Modifier | None:
+def _outside_modifier(modifications: dict[str, Expr | float], span: Span, elements: Given) -> Modifier | None:
+    """What is said of variables as a whole; what is said of elements of arrays goes to `elements`."""
     root = Modifier(span)
-    for name, value in modifications.items():
+    for name, given in modifications.items():
+        value = given if isinstance(given, Expr) else _number(given)
+        if "[" in name:
+            elements[name] = value
+            continue
         at = root
         for part in name.split("."):
             at = at.children.setdefault(part, Modifier(span))
-        at.value = value if isinstance(value, Expr) else _number(value)
+        at.value = value
     return root if root.children else None
 
 
@@ -215,7 +225,7 @@ def _instantiate(
         look_at(top, implicit)
     bind_texts(sections)
     top.context.table(Structure).sections = sections
-    _refuse_constants(leaves, modifications)
+    _refuse_what_is_not_set(leaves, modifications, top)
     return leaves, sections, buses
 
 

@@ -50,6 +50,40 @@ def _affine(e: Expr, v: Expr, memo: dict[Expr, Coefficients | None]) -> Coeffici
     return (div(a1, b2), div(b1, b2)) if is_const(a2, 0) else None
 
 
+def offset(a: Expr, b: Expr) -> float | None:
+    """a - b where that is a number whatever varies in both: of `i + 1` and `i - 1`. None otherwise."""
+    terms = _terms(sub(a, b), {})
+    number = terms.pop(ONE, 0)
+    return None if any(terms.values()) else number
+
+
+def _terms(e: Expr, memo: dict[Expr, dict[Expr, float]]) -> dict[Expr, float]:
+    """What `e` is the sum of, with numbers as factors; ONE stands for the number beside."""
+    if e in memo:
+        return memo[e]
+    found: dict[Expr, float] = {}
+    factors = _factors(e)
+    if e.op == "const":
+        found[ONE] = e.value
+    elif factors:
+        for part, factor in factors:
+            for term, times in _terms(part, memo).items():
+                found[term] = found.get(term, 0) + factor * times
+    else:
+        found[e] = 1
+    memo[e] = found
+    return found
+
+
+def _factors(e: Expr) -> list[tuple[Expr, float]]:
+    """The parts that `e` is a sum of, and their factors."""
+    if e.op in ("+", "-", "neg"):
+        return list(zip(e.args, {"+": (1, 1), "-": (1, -1), "neg": (-1,)}[e.op], strict=True))
+    if e.op == "*":
+        return [(x, y.value) for x, y in (e.args, e.args[::-1]) if y.op == "const"][:1]
+    return []
+
+
 def nonlinear(e: Expr) -> frozenset[Expr]:
     """The leaves in which `e` is not affine; memoised on the hash-consed nodes."""
     memo = table().nonlinear

@@ -10,8 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
-from lacuna.codegen.symbolic.expr import REAL, Expr, is_const, node, substitute, table, transform
+from lacuna.codegen.symbolic.expr import REAL, Expr, const, is_const, node, substitute, table, transform
 
 OP = "annotated"
 
@@ -64,16 +65,51 @@ def in_units(value: Expr, meant: Expr) -> Expr:
     return value if is_const(value) else node(OP, (value,), meant, value.type)
 
 
+class Measured(float):
+    """A number that a function gave which declares its unit: a constant to every pass, with a unit for their check."""
+
+    unit, source = "", ""
+
+
+@lru_cache(maxsize=1024)
+def _measured(unit: str, source: str) -> type[Measured]:
+    """A class for each unit: it keeps their constants apart in the table of expressions."""
+    return type("Measured", (Measured,), {"unit": unit, "source": source})
+
+
+def measured(value: Expr, unit: str, source: str) -> Expr:
+    """A constant Real with its unit, and what gave it."""
+    return const(_measured(unit, source)(value.value))
+
+
+def unit_of_number(e: Expr) -> str:
+    """The unit that a constant has, "" for a mere number."""
+    return e.value.unit if e.op == "const" and isinstance(e.value, Measured) else ""
+
+
+def number(e: Expr) -> Expr:
+    """A constant as a mere number; any other expression as it is."""
+    return const(float(e.value)) if unit_of_number(e) else e
+
+
 def tells_units(e: Expr) -> bool:
     return e.op == OP and isinstance(e.value, Expr)
 
 
 def unmarked(e: Expr) -> Expr:
     """`e` without what tells the units of numbers."""
-    return transform(e, lambda n: unmarked(n.args[0]) if tells_units(n) else None, {})
+
+    def without(n: Expr) -> Expr | None:
+        return unmarked(n.args[0]) if tells_units(n) else number(n) if unit_of_number(n) else None
+
+    return transform(e, without, {})
 
 
 def plain(e: Expr, memo: dict[Expr, Expr] | None = None) -> Expr:
     """`e` with values alone in the place of annotated ones."""
     memo = table().plain if memo is None else memo
-    return transform(e, lambda n: plain(n.args[0], memo) if n.op == OP else None, memo)
+
+    def value(n: Expr) -> Expr | None:
+        return plain(n.args[0], memo) if n.op == OP else number(n) if unit_of_number(n) else None
+
+    return transform(e, value, memo)

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 from lacuna.codegen import flat
-from lacuna.codegen.symbolic.annotated import OP, DerivativeRule, plain, tells_units, unmarked
-from lacuna.codegen.symbolic.expr import Expr, neg, transform
+from lacuna.codegen.symbolic.annotated import OP, DerivativeRule, plain, tells_units, unit_of_number, unmarked
+from lacuna.codegen.symbolic.expr import FALSE, TRUE, Expr, neg, transform
 
 Rule = Callable[[Expr], Expr | None]
+Branch = tuple[Expr, list[flat.Statement]]
 Target = Callable[[str], tuple[str, int]]  # name -> (name, sign)
 
 
@@ -43,7 +44,9 @@ class Rewriter:
                 return replace(s, indices=indices, value=self.expression(s.value))
             case flat.Assert():
                 return replace(s, condition=self.expression(s.condition))
-            case flat.If() | flat.When():
+            case flat.If():
+                return replace(s, branches=self._branches(s.branches))
+            case flat.When():
                 return replace(s, branches=[(self.expression(c), self.statements(b)) for c, b in s.branches])
             case flat.While():
                 return replace(s, condition=self.expression(s.condition), body=self.statements(s.body))
@@ -52,8 +55,27 @@ class Rewriter:
                 return replace(s, first=first, step=step, last=last, body=self.statements(s.body))
         return s
 
+    def _branches(self, branches: Sequence[Branch]) -> list[Branch]:
+        """Those that may be taken: none whose condition comes to be false, none behind one that always holds."""
+        found: list[Branch] = []
+        for condition, body in branches:
+            settled = self.expression(condition)
+            if settled is not FALSE:
+                found.append((settled, self.statements(body)))
+            if settled is TRUE:
+                break
+        return found
+
     def statements(self, body: Iterable[flat.Statement]) -> list[flat.Statement]:
-        return [self.statement(s) for s in body]
+        result: list[flat.Statement] = []
+        for s in map(self.statement, body):
+            if not isinstance(s, flat.If):
+                result.append(s)
+            elif s.branches and s.branches[0][0] is TRUE:
+                result += s.branches[0][1]
+            elif s.branches:
+                result.append(s)
+        return result
 
     def equation(self, e: flat.Equation) -> flat.Equation:
         lhs, rhs = self.expression(e.lhs), self.expression(e.rhs)
@@ -61,7 +83,7 @@ class Rewriter:
 
     def variable(self, v: flat.Variable) -> flat.Variable:
         fields = ("binding", "start", "fixed", "min", "max", "nominal")
-        given = {f: e for f in fields if (e := getattr(v, f)) is not None and e.op != "const"}
+        given = {f: e for f in fields if (e := getattr(v, f)) is not None}
         changed = {f: new for f, e in given.items() if (new := self.expression(e)) is not e}
         return replace(v, **changed) if changed else v
 
@@ -88,8 +110,8 @@ class Rewriter:
 
 def without_marks(model: flat.FlatModel) -> flat.FlatModel:
     """The model without what tells the units of numbers, and derivatives outside of equations: nobody asks for them."""
-    settled = Rewriter(lambda n: plain(n) if n.op == OP else None).model(model)
-    equations = Rewriter(lambda n: unmarked(n) if tells_units(n) else None)
+    settled = Rewriter(lambda n: plain(n) if n.op == OP or unit_of_number(n) else None).model(model)
+    equations = Rewriter(lambda n: unmarked(n) if tells_units(n) or unit_of_number(n) else None)
     return replace(settled, equations=[equations.equation(e) for e in model.equations], derivatives=model.derivatives)
 
 

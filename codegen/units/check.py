@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.symbolic.annotated import unit_of_number
 from lacuna.codegen.symbolic.expr import REAL, Expr, to_text, var
 from lacuna.codegen.units.inference import UNKNOWN, Finding, UnitError, UnitInference, of_variable
 from lacuna.codegen.units.undeclared import Undeclared
@@ -176,7 +177,7 @@ class _Check:
         own = self.units[v.name]
         for what in ("binding", "start", "min", "max", "nominal"):
             value = getattr(v, what)
-            if value is not None and value.op != "const":
+            if value is not None:
                 span = self.places.get((v.name, what), v.span)
                 self._guarded(span, lambda x=value, w=what: self._value(inference, v.name, own, x, w))
 
@@ -223,4 +224,6 @@ class _Check:
         """Sides of equations, and variables with what is bound to them, that may tell a unit."""
         pairs = [(e.lhs, e.rhs) for e in _as_written(self.model.equations) if not e.branches]
         bound = ((v.name, v.binding) for v in self.model.variables.values() if v.binding is not None)
-        return pairs + [(var(n), b) for n, b in bound if self.units[n] == UNKNOWN and b.op != "const"]
+        return pairs + [
+            (var(n), b) for n, b in bound if self.units[n] == UNKNOWN and (b.op != "const" or unit_of_number(b))
+        ]

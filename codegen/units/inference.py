@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 
-from lacuna.codegen.symbolic.annotated import tells_units
+from lacuna.codegen.symbolic.annotated import tells_units, unit_of_number
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, RELATIONS, Expr, to_text
 from lacuna.units import DIMENSIONLESS, Unit, format_unit, parse_unit
 
@@ -34,7 +34,7 @@ class UnitError(Exception):
 
 
 def short(e: Expr) -> str:
-    text = to_text(e)
+    text = e.value.source if unit_of_number(e) else to_text(e)
     return text if len(text) <= 70 else text[:67] + "..."
 
 
@@ -56,7 +56,7 @@ class UnitInference:
     def _infer(self, e: Expr) -> Finding:
         op = e.op
         if op == "const":
-            return LITERAL
+            return parse_unit(unit) if (unit := unit_of_number(e)) else LITERAL
         if op == "var":
             return self._variable(e)
         if op == "time":
@@ -203,7 +203,9 @@ class UnitInference:
         return inside or e.op == "time"
 
     def _is_scale(self, e: Expr) -> bool:
-        return (e.op == "const" and abs(e.value) != 1) or (e.op == "var" and self._variable(e) == LITERAL)
+        return (e.op == "const" and abs(e.value) != 1 and not unit_of_number(e)) or (
+            e.op == "var" and self._variable(e) == LITERAL
+        )
 
 
 def times(a: Finding, b: Finding) -> Finding:

@@ -28,6 +28,12 @@ FILES = {
     "Names.mo": 'model Names parameter Real p(unit="m") = 2; Real v(unit="m/s", start=1, fixed=true); Real back = -v; '
     'Real a = p + p; Real e = v*v/p; parameter Real T(unit="s") = 3; constant Real c = 3; '
     "equation der(v) = -v/T; end Names;",
+    "Row.mo": "model Row parameter Integer n = 2; parameter Real v[n] = fill(1, n); Real s = sum(v)*time; end Row;",
+    "Open.mo": "model Open parameter Integer n; parameter Real v[n]; Real s = sum(v)*time; end Open;",
+    "Rows.mo": "model Rows parameter Integer k[2] = {1, 2}; parameter Boolean on[2] = {true, false}; "
+    "final parameter Integer f[1] = {1}; constant Integer c[1] = {1}; model Part parameter Integer n = 1; "
+    "Real x[n] = fill(1.0, n); end Part; Part part[2]; Real s = if on[2] then 100*time else 0; "
+    "Real x[k[1]] = ones(k[1]); Real y = sum(x) + 10*k[2] + s + 1000*sum(part[2].x); end Rows;",
     "again/Alpha/package.mo": "package Alpha end Alpha;",
     "Folder.mo/readme.txt": "no model",
     "empty/readme.txt": "no package",
@@ -63,6 +69,22 @@ def refused(*words: str) -> str:
     assert result.exit_code == 1, result.output
     assert isinstance(result.exception, SystemExit), result.exception
     return result.output
+
+
+@pytest.mark.parametrize("words", [("v[3]=9", "n=3"), ("n=3", "v[3]=9")])
+def test_sizes_are_set_before_what_they_make(words: tuple[str, str]) -> None:
+    given = [part for word in words for part in ("-p", word)]
+    assert answer("simulate", "Row.mo", *given, "--out", "run")["last"]["s"] == 11
+    assert "no parameter called v[4]" in refused("simulate", "Row.mo", *given, "-p", "v[4]=1")
+
+
+def test_elements_are_set_that_decide_the_structure(place: Path) -> None:
+    given = ["-p", "k[1]=3", "-p", "part[2].n=2", "-p", "on[2]=1"]
+    assert answer("simulate", "Rows.mo", *given, "--out", "run")["last"]["y"] == 3 + 20 + 100 + 2000
+    assert answer("simulate", "Open.mo", "-p", "v[2]=5", "-p", "n=2", "-p", "v[1]=2", "--out", "run")["last"]["s"] == 7
+    assert "f is final" in refused("simulate", "Rows.mo", "-p", "f[1]=3")
+    assert "constant" in refused("simulate", "Rows.mo", "-p", "c[1]=3")
+    assert "v[3]" in refused("simulate", "Open.mo", "-p", "n=2", "-p", "v[3]=1")
 
 
 @pytest.mark.parametrize(

@@ -121,7 +121,17 @@ def test_the_longest_time_is_kept_to(tmp_path: Path) -> None:
     failure = simulated(tmp_path, LAG.replace("delay(x, T)", "delay(x, T, 0.1)")).failure
     assert "delayTime is longer than delayMax" in str(failure)
     negative = simulated(tmp_path, LAG.replace("0.25", "-0.25")).failure
-    assert "the time of delay is not negative (T = -0.25)" in str(negative)
+    assert "the time of delay is positive" in str(negative)
+
+
+def test_by_no_time_it_is_what_is_delayed(tmp_path: Path) -> None:
+    """0 <= delayTime (3.7.4.1); a parameter that is 0 decides that nothing is kept, one that comes to be 0 is told."""
+    result = simulated(tmp_path, LAG.replace("0.25", "0"), rtol=1e-9)
+    assert result.complete
+    assert result["x"] == pytest.approx(np.exp(-result.time), rel=1e-7)
+    failure = simulated(tmp_path, LAG, parameters={"T": 0.0}).failure
+    assert (failure.status, failure.line) == ("assert", 5)
+    assert "the time of delay is positive" in failure.message
 
 
 def test_no_sensitivities_through_a_delay(tmp_path: Path) -> None:

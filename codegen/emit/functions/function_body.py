@@ -62,10 +62,14 @@ class FunctionBody:
     def c_name(self, name: str) -> str:
         return self._names.identifier(name)
 
+    def _place(self, name: str) -> str:
+        """The pointer through which a result is given."""
+        return self._names.identifier(f"{name} out")
+
     def _signature(self) -> str:
         f = self._f
         inputs, _ = declarations(f, self._names)
-        arguments = [*inputs, *(f"{c_type(f, n)} *{self.c_name(n)}_out" for n in by_pointer(f))]
+        arguments = [*inputs, *(f"{c_type(f, n)} *{self._place(n)}" for n in by_pointer(f))]
         kind = c_type(f, f.outputs[0]) if returns_value(f) else "void"
         return f"static {kind} {c_function(f)}({', '.join(arguments)})"
 
@@ -89,11 +93,9 @@ class FunctionBody:
         """Statements that hand over the results and return."""
         f, parts = self._f, [f"((mdl_data *)m)->stack -= {self._frame};"] if self._guarded else []
         for n in by_pointer(f):
-            c_name, shape = self.c_name(n), f.shapes[n]
-            if shape:
-                parts.append(f"if ({c_name}_out) {{ memcpy({c_name}_out, {c_name}, sizeof {c_name}); }}")
-            else:
-                parts.append(f"if ({c_name}_out) {{ *{c_name}_out = {c_name}; }}")
+            c_name, place = self.c_name(n), self._place(n)
+            copied = f"memcpy({place}, {c_name}, sizeof {c_name})" if f.shapes[n] else f"*{place} = {c_name}"
+            parts.append(f"if ({place}) {{ {copied}; }}")
         if returns_value(f):
             parts.append(f"return {self.c_name(f.outputs[0])};")
         else:
@@ -103,7 +105,7 @@ class FunctionBody:
     def _refuse(self) -> str:
         """Statements that return NaN without having begun."""
         f = self._f
-        parts = [f"if ({self.c_name(n)}_out) {{ *{self.c_name(n)}_out = {_nothing(f, n)}; }}" for n in by_pointer(f)]
+        parts = [f"if ({self._place(n)}) {{ *{self._place(n)} = {_nothing(f, n)}; }}" for n in by_pointer(f)]
         return " ".join([*parts, f"return {_nothing(f, f.outputs[0])};" if returns_value(f) else "return;"])
 
     def _fail(self, kind: str, index: int = -1) -> str:

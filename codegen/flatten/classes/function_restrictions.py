@@ -10,11 +10,21 @@ from lacuna.codegen.flatten.classes.instance import Instance
 from lacuna.codegen.flatten.classes.leaf import check_attributes
 from lacuna.codegen.flatten.classes.prefixes import check_component
 from lacuna.codegen.flatten.classes.types import EXTERNAL, Type
+from lacuna.codegen.flatten.expressions.enumerations import enumeration_of
+from lacuna.codegen.flatten.expressions.lower import modifier_value
 from lacuna.codegen.flatten.names.context import Context
-from lacuna.codegen.flatten.names.modifiers import from_tree, merge, refuse_each
+from lacuna.codegen.flatten.names.modifiers import Modifier, from_tree, merge, refuse_each
 from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.names.values import Array, ChosenText, items_of, shape_text
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.references import references
+
+_TYPES = {  # of attributes that are not of the type of the variable, with the enumeration
+    **dict.fromkeys(("unit", "displayUnit", "quantity"), ("String", "")),
+    **dict.fromkeys(("fixed", "unbounded"), (BOOLEAN, "")),
+    "stateSelect": (INTEGER, "StateSelect"),
+}
 
 
 class Declared(Protocol):
@@ -36,7 +46,7 @@ def check_function(
         _check_prefixes(cls, local.declaration)
         _check_constant(cls, local.declaration, declared)
         _check_kind(cls, local)
-        _check_modification(cls, local, context)
+        _check_modification(cls, local, {d.name for d in declared}, context)
 
 
 def _check_sections(cls: ast.Class, sections: Sequence[ast.Section]) -> None:
@@ -101,7 +111,7 @@ def _check_kind(cls: ast.Class, local: Declared) -> None:
         raise Diagnostic("R066", message, local.declaration.span, "a function holds types and records only")
 
 
-def _check_modification(cls: ast.Class, local: Declared, context: Context) -> None:
+def _check_modification(cls: ast.Class, local: Declared, names: set[str], context: Context) -> None:
     """As of a component of a model: a function is a class (12.2)."""
     declaration, found = local.declaration, local.type
     own = from_tree(declaration.modification, local.scope)
@@ -109,7 +119,10 @@ def _check_modification(cls: ast.Class, local: Declared, context: Context) -> No
         refuse_each(own)
     if found.primitive is not None:
         if found.primitive != EXTERNAL:
-            check_attributes(found.primitive, declaration.name, merge(own, found.modifier) or own)
+            whole = merge(own, found.modifier) or own
+            check_attributes(found.primitive, declaration.name, whole)
+            for name, child in whole.children.items():
+                _check_attribute(local, name, child, names)
         return
     if found.cls is None or found.cls.kind not in ("record", "operator record"):
         return
@@ -122,3 +135,22 @@ def _check_modification(cls: ast.Class, local: Declared, context: Context) -> No
             if element.declaration.final:
                 hint = "remove the modification"
                 raise Diagnostic("R031", f"{name} of {found.cls.name} is final", child.span, hint)
+
+
+def _check_attribute(local: Declared, name: str, said: Modifier, names: set[str]) -> None:
+    """An attribute has the type that it is of (4.9). One that follows variables of the function is not looked at."""
+    if not isinstance(said.value, ast.Expression) or any(r.names[0] in names for r in references(said.value)):
+        return
+    value = modifier_value(said)
+    if isinstance(value, Array) and not (local.declaration.dimensions or local.type.dimensions):
+        message = f"{name} of the scalar {local.name} has size {shape_text(value.shape)}"
+        raise Diagnostic("R036", message, said.span, "give one value")
+    own = (local.type.cls.origin or local.type.cls).path if local.type.literals else ""
+    wanted, kind = _TYPES.get(name, (local.type.primitive, own))
+    for item in items_of(value):
+        found = item.type if isinstance(item, Expr | ChosenText) else "String" if isinstance(item, str) else "a record"
+        of = enumeration_of(item, said.scope.context) if isinstance(item, Expr) else ""
+        if (found != wanted and (wanted, found) != (REAL, INTEGER)) or of not in (None, kind):
+            given, needed = (k.rpartition(".")[2] or t for k, t in ((of, found), (kind, wanted)))
+            message = f"{name} of {local.name} is {needed}, its value {given}"
+            raise Diagnostic("R024", message, said.span, f"give a {needed}")

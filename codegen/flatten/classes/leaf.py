@@ -22,6 +22,10 @@ from lacuna.codegen.syntax import ast
 from lacuna.suggest import did_you_mean
 
 
+class Given(dict[str, Expr]):
+    """Values from outside for elements of arrays, by their full names."""
+
+
 class Leaf:
     """`names` are its scalars in row-major order: x, or x[1], x[2], ... ("A[1,2]" for a matrix)."""
 
@@ -130,16 +134,34 @@ class Leaf:
                     self._binding = self._fit(
                         self._meant(modifier_value(self._holding())), self.modifier, "the binding"
                     )
+                self._binding = self._with_given(self._binding)
             finally:
                 self._lowering = False
             self._bound = True
         return self._binding
 
+    def _with_given(self, value: Value | None) -> Value | None:
+        """The value with the elements that are given from outside; where there is none, that of all of them."""
+        given = {n: e for n, e in self.instance.context.table(Given).items() if n in self.names}
+        if not given:
+            return value
+        if self.modifier.final:
+            raise Diagnostic("R031", f"{self.name} is final and cannot be set", self.span, "remove the modification")
+        items = [given.get(n) or self.element(value, k) for k, n in enumerate(self.names)]
+        if None in items:
+            return value
+        found = tuple(self._number_for_type(i) if n in given else i for n, i in zip(self.names, items, strict=True))
+        return Array(self.shape, found) if self.shape else found[0]
+
     def _meant(self, value: Value) -> Value:
-        """A number that is given from outside, where there are numbers only, as what it means for this type: 0 and 1
-        are false and true, 1 to n the literals of an enumeration. Raises R024 for any other number."""
+        """A value that is given from outside as what it means for this type."""
         outside = self.modifier.scope is None and isinstance(value, Expr) and value.op == "const"
-        if not outside or not (self.primitive == ex.BOOLEAN or self.type.literals):
+        return self._number_for_type(value) if outside else value
+
+    def _number_for_type(self, value: Expr) -> Expr:
+        """A number from outside, where there are numbers only: 0 and 1 are false and true, 1 to n the literals of an
+        enumeration. Raises R024 for any other number."""
+        if not (self.primitive == ex.BOOLEAN or self.type.literals):
             return value
         meanings = [literal(self.type.cls, n + 1) for n in range(len(self.type.literals))] or [ex.FALSE, ex.TRUE]
         for meaning in meanings:
@@ -152,8 +174,8 @@ class Leaf:
         raise Diagnostic("R024", f"{self.name} is {kind}", self.span, hint)
 
     def _holding(self) -> Modifier:
-        """The modifier whose value holds at all times where this is no parameter."""
-        if self.is_structural or self.modifier.scope is None:
+        """The modifier whose value holds at all times where this is no parameter (12.3)."""
+        if self.variability == "parameter" or self.modifier.scope is None:
             return self.modifier
         return replace(self.modifier, scope=replace(self.modifier.scope, pure=True))
 

@@ -11,13 +11,13 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.imports import check_imports
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import (
-    PRIMITIVES,
     base_class,
     base_classes,
     base_clauses,
     find_first,
     own_or_inherited,
 )
+from lacuna.codegen.library.predefined import PRIMITIVES
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.alike import alike
 

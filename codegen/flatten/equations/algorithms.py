@@ -7,6 +7,8 @@ from dataclasses import replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.classes.leaf import Leaf
+from lacuna.codegen.flatten.classes.types import Type
 from lacuna.codegen.flatten.equations.equations import Collected, check_target, check_types, origin_of, pairs, unroll
 from lacuna.codegen.flatten.equations.independent import independent_parts
 from lacuna.codegen.flatten.equations.mixed import lasting_targets, split_by_time
@@ -15,10 +17,12 @@ from lacuna.codegen.flatten.equations.when import procedure, when_conditions
 from lacuna.codegen.flatten.expressions.constants import is_known, known
 from lacuna.codegen.flatten.expressions.lower import NOT_THERE, lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.modifiers import Modifier
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import shape_of, shape_text
+from lacuna.codegen.flatten.references.iterators import varying_bounds
 from lacuna.codegen.symbolic import expr as ex
-from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, TRUE, Expr
+from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, INTEGER, TRUE, Expr
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import assigned
 from lacuna.codegen.syntax import ast
@@ -97,12 +101,7 @@ def _statements(items: list[ast.Item], scope: Scope, in_when: bool) -> list[flat
         elif isinstance(item, ast.If):
             result += _if(item, scope, in_when)
         elif isinstance(item, ast.For):
-            passes = [_statements(item.body, inner, in_when) for inner in unroll(item, scope)]
-            if any(isinstance(s, flat.Break) for body in passes for s in _nested(body)):
-                once = [s for body in passes for s in body]
-                result.append(flat.While(TRUE, [*once, flat.Break(item.span)], item.span))
-            else:
-                result += [s for body in passes for s in body]
+            result += _for(item, scope, in_when)
         elif isinstance(item, ast.While):
             condition = lower_scalar(item.condition, scope, BOOLEAN)
             result.append(flat.While(condition, _statements(item.body, scope, in_when), item.span))
@@ -117,6 +116,41 @@ def _statements(items: list[ast.Item], scope: Scope, in_when: bool) -> list[flat
             hint = "put the loop in a function and call it"
             raise Diagnostic("R059", f"'{what}' in the algorithm of a model", item.span, hint)
     return result
+
+
+def _for(item: ast.For, scope: Scope, in_when: bool) -> list[flat.Statement]:
+    """Pass by pass; inside of when a range that varies is counted through. Loops of several variables are nested."""
+    if len(item.iterators) > 1:
+        first, *rest = item.iterators
+        item = ast.For(item.span, [first], [ast.For(item.span, rest, item.body)])
+    if in_when and (varying := varying_bounds(item.iterators[0], scope)) is not None:
+        return _counted(item, *varying, scope)
+    passes = [_statements(item.body, inner, in_when) for inner in unroll(item, scope)]
+    whole = [s for body in passes for s in body]
+    left = any(isinstance(s, flat.Break) for s in _nested(whole))
+    return [flat.While(TRUE, [*whole, flat.Break(item.span)], item.span)] if left else whole
+
+
+def _counted(item: ast.For, first: Expr, step: Expr, last: Expr, scope: Scope) -> list[flat.Statement]:
+    """The loop with a counter: where it ends is settled when it begins (11.2.2)."""
+    name, span = item.iterators[0].name, item.span
+    counter, end = (_counter(f"{what}{name}", item, scope) for what in ("", "end of "))
+    body = _statements(item.body, scope.with_locals(**{name: counter}), in_when=True)
+    going = ex.relation("<=" if step.value > 0 else ">=", counter, end)
+    on = flat.Assign(str(counter.value), ex.add(counter, step), span)
+    begin = [flat.Assign(str(v.value), value, span) for v, value in ((counter, first), (end, last))]
+    return [*begin, flat.While(going, [*body, on], span)]
+
+
+def _counter(name: str, item: ast.For, scope: Scope) -> Expr:
+    """A variable of the generator's own."""
+    carried = scope.context.table(Carried)
+    name = f"new {name} {len(carried) + 1}"
+    carried[name] = ""
+    kind = ast.Ref(item.span, (INTEGER,), (None,))
+    declared = ast.Component(item.span, name, kind, [], ast.Modification(item.span), protected=True)
+    Leaf(scope.context, scope.instance, declared, name, Type(INTEGER), (), Modifier(item.span))
+    return ex.var(name, INTEGER)
 
 
 def _procedure(item: ast.Procedure, scope: Scope, in_when: bool) -> list[flat.Statement]:
@@ -194,12 +228,19 @@ def assignment(item: ast.Assignment, scope: Scope) -> list[flat.Statement]:
 def _chosen_by_itself(target: Expr | str) -> bool:
     """Whether elements of an array decide which of them is meant. Otherwise all but one stay what they are, and the
     value of that one may be read from any."""
-    elements, conditions = set(), set()
-    while isinstance(target, Expr) and target.op == "if":
-        conditions |= leaves(target.args[0])
-        elements.add(target.args[1])
-        target = target.args[2]
-    return not conditions.isdisjoint({*elements, target})
+    choices = _choices(target, TRUE) if isinstance(target, Expr) else {}
+    return not choices.keys().isdisjoint(leaf for condition in choices.values() for leaf in leaves(condition))
+
+
+def _choices(target: Expr, condition: Expr) -> dict[Expr, Expr]:
+    """The elements that a target by subscripts that vary may mean, and when it does."""
+    if target.op != "if":
+        return {target: condition}
+    first, here, there = target.args
+    found = _choices(here, ex.logical_and(condition, first))
+    for element, when in _choices(there, ex.logical_and(condition, ex.logical_not(first))).items():
+        found[element] = ex.logical_or(found[element], when) if element in found else when
+    return found
 
 
 def _chosen(
@@ -213,27 +254,26 @@ def _chosen(
 
     if not isinstance(target, Expr) or target.op != "if" or not isinstance(value, Expr):
         return [(target, value)]
-    elements: list[tuple[Expr, Expr]] = []
-    none_before = TRUE
-    while isinstance(target, Expr) and target.op == "if":
-        condition, element, target = target.args
-        elements.append((element, ex.logical_and(none_before, condition)))
-        none_before = ex.logical_and(none_before, ex.logical_not(condition))
-    if target.op == "var":
-        elements.append((target, none_before))
-        return [(element, ex.if_else(chosen, value, stays(element))) for element, chosen in elements]
-    return [(e, ex.if_else(chosen, value, ex.if_else(none_before, target, stays(e)))) for e, chosen in elements]
+    choices = _choices(target, TRUE)
+    outside = {e: when for e, when in choices.items() if ex.is_nothing(e)}
+    others = {e: stays(e) for e in choices if e not in outside}
+    for nothing, when in outside.items():
+        others = {e: ex.if_else(when, nothing, rest) for e, rest in others.items()}
+    return [(e, ex.if_else(choices[e], value, rest)) for e, rest in others.items()]
 
 
 class Carried(dict[str, str]):
-    """Variables that carry values to elements which are assigned together, and the elements."""
+    """Variables that carry values to elements which are assigned together, and the elements; counters have ""."""
 
 
 def carriers(model: flat.FlatModel, context: Context) -> dict[str, flat.Variable]:
     """The variables that carry values at events, each like the element that it is for."""
     plain = {"causality": "local", "fixed": None, "hidden": True}
-    found = context.table(Carried)
-    return {n: replace(model.variables[e], name=n, description=f"assigned to {e}", **plain) for n, e in found.items()}
+    found: dict[str, flat.Variable] = {}
+    for n, e in context.table(Carried).items():
+        counter = flat.Variable(n, context.scalars[n][0].span, INTEGER, flat.DISCRETE)
+        found[n] = replace(model.variables[e] if e else counter, name=n, description=f"assigned to {e}", **plain)
+    return found
 
 
 def _simultaneous(result: list[flat.Assign], context: Context) -> list[flat.Assign]:

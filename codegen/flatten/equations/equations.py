@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.leaf import Leaf
-from lacuna.codegen.flatten.expressions.constants import variability
+from lacuna.codegen.flatten.expressions.constants import known, variability
 from lacuna.codegen.flatten.expressions.enumerations import require_same
 from lacuna.codegen.flatten.expressions.lower import lower, lower_results
 from lacuna.codegen.flatten.names.context import Context
@@ -45,6 +45,15 @@ def unroll(item: ast.For, scope: Scope) -> list[Scope]:
     scopes = [scope]
     for iterator in item.iterators:
         scopes = [s.with_locals(**{iterator.name: v}) for s in scopes for v in iterate(iterator, s, item.body)]
+    return scopes
+
+
+def unroll_equations(item: ast.For, scope: Scope) -> list[Scope]:
+    """As `unroll`, of a loop over equations, whose ranges are known at translation (8.3.2). Raises F021."""
+    scopes = unroll(item, scope)
+    for iterator in (i for i in item.iterators if isinstance(i.range, ast.Range)):
+        for inner in scopes:
+            known(inner.locals[iterator.name], inner, iterator.range.span, "the range of the loop")
     return scopes
 
 

@@ -1,4 +1,4 @@
-"""Equation sections: each item to the pass that knows it, loops unrolled."""
+"""Equation sections: each item to the pass that knows it, loops unroll_equationsed."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from lacuna.codegen.flatten.connections.overconstrained import STATEMENTS, graph
 from lacuna.codegen.flatten.equations.asserts import lower_assert
 from lacuna.codegen.flatten.equations.conditionals import flatten_if
 from lacuna.codegen.flatten.equations.effects import effect
-from lacuna.codegen.flatten.equations.equations import Collected, equalities, unroll
+from lacuna.codegen.flatten.equations.equations import Collected, equalities, unroll_equations
 from lacuna.codegen.flatten.equations.when import flatten_when
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.syntax import ast
@@ -35,7 +35,7 @@ def flatten_item(item: ast.Item, scope: Scope, out: Collected) -> None:
     elif isinstance(item, ast.If):
         flatten_if(item, scope, out, flatten_item)
     elif isinstance(item, ast.For):
-        for inner in unroll(item, scope):
+        for inner in unroll_equations(item, scope):
             for body_item in item.body:
                 flatten_item(body_item, inner, out)
     elif isinstance(item, ast.When):

@@ -174,9 +174,8 @@ def _of_type(value: Expr | str, kind: str, what: str, span: Span) -> Expr:
         found = "String" if isinstance(value, str) else value.type
         hint = "integer(x) gives the whole number at or below x" if (kind, found) == (INTEGER, REAL) else ""
         raise Diagnostic("R024", f"{what} is {kind}, its value {found}", span, hint or f"give it a {kind}")
-    if kind == REAL and value.op == "const":
-        return ex.const(float(value.value))
-    return value
+    whole = kind == REAL and value.op == "const" and value.type == INTEGER
+    return ex.const(float(value.value)) if whole else value
 
 
 def _parameter_value(leaf: Leaf, variable: flat.Variable, value: Expr | None, context: Context) -> Expr | None:

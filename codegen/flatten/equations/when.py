@@ -8,7 +8,13 @@ from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.equations.asserts import lower_assert, lower_message
 from lacuna.codegen.flatten.equations.effects import effect
-from lacuna.codegen.flatten.equations.equations import check_target, check_types, equalities, origin_of, unroll
+from lacuna.codegen.flatten.equations.equations import (
+    check_target,
+    check_types,
+    equalities,
+    origin_of,
+    unroll_equations,
+)
 from lacuna.codegen.flatten.expressions.constants import is_known, variability
 from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
 from lacuna.codegen.flatten.names.scope import Scope
@@ -70,7 +76,7 @@ def when_body(body: list[ast.Item], scope: Scope) -> list[flat.Statement]:
         if isinstance(item, ast.Equality):
             statements += _assignments(item, scope)
         elif isinstance(item, ast.For):
-            for inner in unroll(item, scope):
+            for inner in unroll_equations(item, scope):
                 statements += when_body(item.body, inner)
         elif isinstance(item, ast.If):
             statements += _if(item, scope)

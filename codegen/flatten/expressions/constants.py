@@ -90,6 +90,17 @@ def _value_of(name: str, context: Context, span: Span, what: str) -> Expr:
     return result
 
 
+def is_zero(e: Expr, context: Context, span: Span) -> bool:
+    """Is `e` zero by the values that parameters have? Where it is they become structural, else not."""
+    if not is_known(e, context):
+        return False
+    before = set(context.evaluated)
+    if evaluate(e, context, span).value == 0:
+        return True
+    context.evaluated &= before
+    return False
+
+
 def is_known(e: Expr, context: Context) -> bool:
     """Does `e` depend on constants and parameters with a value only?"""
     return variability(e, context) in ("constant", "parameter") and not _depends_on_free(e, context)

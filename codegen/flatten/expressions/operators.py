@@ -7,7 +7,7 @@ from collections.abc import Callable
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.arrays import map_call, size_of_array
-from lacuna.codegen.flatten.expressions.constants import is_parameter, known, variability
+from lacuna.codegen.flatten.expressions.constants import is_parameter, is_zero, known, variability
 from lacuna.codegen.flatten.expressions.derivative import time_derivative
 from lacuna.codegen.flatten.expressions.enumerations import as_integer
 from lacuna.codegen.flatten.expressions.lower import Handler, lower, lower_scalar
@@ -167,10 +167,13 @@ def _delay(e: ast.Call, scope: Scope) -> Value:
         message = f"a delay of {ex.to_text(seconds)} s where the longest is {ex.to_text(longest[0])} s"
         raise Diagnostic("R053", message, e.args[1].span, "delayMax is not below delayTime (3.7.4.1)")
 
-    _require(">=", seconds, "the time of delay is not negative", e.args[1].span, scope)
+    at_once = is_zero(seconds, scope.context, e.args[1].span)
+    if not at_once:
+        message = "the time of delay is positive; for one of 0 give its parameter annotation(Evaluate = true)"
+        _require(">", seconds, message, e.args[1].span, scope)
 
     def build(x: Expr) -> Expr:
-        passes = x.op == "const" or is_parameter(x, scope.context) or ex.is_const(seconds, 0)
+        passes = x.op == "const" or is_parameter(x, scope.context) or at_once
         return x if passes else ex.special("delay", x, seconds, *longest, type=REAL)
 
     return elementwise(build, [lower(e.args[0], scope)], e.span, "delay")

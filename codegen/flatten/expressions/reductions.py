@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from math import prod
 from sys import float_info
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.expressions.arrays import arguments_of, array_of
+from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.enumerations import enumeration_of, index_type, require_same
 from lacuna.codegen.flatten.expressions.lower import Handler, lower, lower_scalar, need_numbers
 from lacuna.codegen.flatten.names.index_types import literals_of
 from lacuna.codegen.flatten.names.scope import Scope
-from lacuna.codegen.flatten.names.values import Array, Value, fold, holds_records, shape_text
+from lacuna.codegen.flatten.names.values import Array, Value, fold, holds_records, scalars, shape_of, shape_text
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
@@ -20,7 +22,13 @@ from lacuna.codegen.syntax import ast
 
 def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callable[[ast.Call, Scope], Value]:
     def build(e: ast.Call, scope: Scope) -> Value:
-        arguments = arguments_of(e, scope, 1, 2 if empty is None else 1)
+        try:
+            arguments = arguments_of(e, scope, 1, 2 if empty is None else 1)
+        except AtRunTime:
+            written, within = _over_range(e.args[0], scope)
+            if scope.loop is None or len(e.args) != 1 or written is None:
+                raise
+            return scope.loop(written, lambda value: _begun(e, value, join, empty, scope), within)
         if len(arguments) == 2:
             return _of_two(*arguments, join, e, scope)
         values = array_of(arguments[0], e)
@@ -48,6 +56,41 @@ def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callab
     return build
 
 
+def _over_range(e: ast.Expression, scope: Scope) -> tuple[ast.Comprehension | None, Scope]:
+    """`e for i in r`, or part `a:b` of an array as `x[i] for i in a:b`; with what `end` is in r."""
+    if isinstance(e, ast.Comprehension):
+        return (None if e.braces else e), scope
+    written = enumerate(e.subscripts if isinstance(e, ast.Ref) else ())
+    parts = [(k, at, s) for k, subscripts in written for at, s in enumerate(subscripts or ())]
+    parts = [part for part in parts if isinstance(part[2], ast.Range | ast.Colon)]
+    if len(parts) != 1 or not isinstance(parts[0][2], ast.Range):
+        return None, scope
+    ((k, at, bounds),) = parts
+    index = ast.Ref(e.span, ("index of the range",), (None,))  # which no variable can be called
+    by = (*e.subscripts[k][:at], index, *e.subscripts[k][at + 1 :])
+    element = replace(e, subscripts=(*e.subscripts[:k], by, *e.subscripts[k + 1 :]))
+    whole = replace(e, names=e.names[: k + 1], subscripts=(*e.subscripts[:k], None))
+    end = ex.const(shape_of(lower(whole, scope))[at])
+    return ast.Comprehension(e.span, element, [ast.Iterator(e.span, index.names[0], bounds)]), replace(scope, end=end)
+
+
+def _begun(
+    e: ast.Call, value: Value, join: Callable[[Expr, Expr], Expr], empty: Expr | None, scope: Scope
+) -> tuple[Expr, Callable[[Expr, Expr], Expr]]:
+    """What the reduction of such values starts with, and what goes on with it. Raises R051 for what is none."""
+    if shape_of(value) and not isinstance(e.args[0], ast.Comprehension):  # rows: how many scalars there are varies
+        raise AtRunTime("the size of an array", e.span)
+    if shape_of(value) and str(e.function) != "sum":
+        raise _of_scalars_only(e, shape_of(value))
+    least = str(e.function) == "min"
+    if empty is None and isinstance(value, Expr) and value.type == BOOLEAN:
+        return (ex.TRUE, ex.logical_and) if least else (ex.FALSE, ex.logical_or)
+    need_numbers(value, e.span, str(e.function), scope.context)
+    kind = REAL if any(s.type == REAL for s in scalars(value)) else INTEGER
+    start = (_GREATEST[kind] if least else -_GREATEST[kind]) if empty is None else empty.value
+    return ex.const(float(start) if kind == REAL else start), join
+
+
 def _of_two(a: Value, b: Value, join: Callable[[Expr, Expr], Expr], e: ast.Call, scope: Scope) -> Expr:
     if not (isinstance(a, Expr) and isinstance(b, Expr)) or (a.type == BOOLEAN) != (b.type == BOOLEAN):
         hint = "of an array: max(x); of two numbers: max(a, b)"
@@ -61,12 +104,16 @@ def _of_two(a: Value, b: Value, join: Callable[[Expr, Expr], Expr], e: ast.Call,
 def _of_arrays(values: Array, own: tuple[int, ...], join: Callable[[Expr, Expr], Expr], e: ast.Call) -> Value:
     """sum of `e for i in r` where e is an array; other reductions are of scalars (10.3.4.1). Raises R051."""
     if str(e.function) != "sum":
-        message = f"{e.function} of arrays {shape_text(own)}"
-        raise Diagnostic("R051", message, e.span, f"what {e.function}(e for i in r) goes over is a scalar")
+        raise _of_scalars_only(e, own)
     need_numbers(values, e.span, "sum")
     step = prod(own)
     columns = [list(values.items[k::step]) for k in range(step)]
     return Array(own, tuple(fold(join, column) if column else ex.const(0) for column in columns))
+
+
+def _of_scalars_only(e: ast.Call, shape: tuple[int, ...]) -> Diagnostic:
+    message = f"{e.function} of arrays {shape_text(shape)}"
+    return Diagnostic("R051", message, e.span, f"what {e.function}(e for i in r) goes over is a scalar")
 
 
 _GREATEST = {INTEGER: 2**31 - 1, REAL: float_info.max}

@@ -14,7 +14,13 @@ from lacuna.codegen.flatten.classes.types import EXTERNAL
 from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.functions.annotated import with_derivatives
-from lacuna.codegen.flatten.functions.declared_units import check_body, is_looked_at, note_units, with_declared_units
+from lacuna.codegen.flatten.functions.declared_units import (
+    check_body,
+    is_looked_at,
+    mere_numbers,
+    note_units,
+    with_declared_units,
+)
 from lacuna.codegen.flatten.functions.effort import MAX_INLINE_DEPTH, is_small
 from lacuna.codegen.flatten.functions.fitting import SizeVaries, blank, counts_evaluated, evaluated, fit
 from lacuna.codegen.flatten.functions.interpret import interpret
@@ -115,7 +121,7 @@ def _results(signature: Signature, arguments: dict[str, Value], e: ast.Call, sco
     if signature.external is not None and signature.external.external.function not in GENERATORS:
         return call_external(signature, arguments, e, scope)
     items = [a for v in arguments.values() for a in scalars(v)]
-    known = not any(is_open(a) for a in items)
+    known = not any(map(is_open, items))
     if is_looked_at(scope) and not (known and context.library.foreign_package(cls.span.file)):
         check_body(signature, arguments, context, e.span)
     makes_events = signature.makes_events
@@ -123,12 +129,10 @@ def _results(signature: Signature, arguments: dict[str, Value], e: ast.Call, sco
     if known or (len(context.calls) < MAX_INLINE_DEPTH and (makes_events or not _has_events(items))):
         context.calls.append((cls.path, scope.conditional))
         try:
-            results = interpret(signature, arguments, context, e.span)
+            results = interpret(signature, mere_numbers(arguments), context, e.span)
             if known or makes_events or is_small(results, arguments):
-                results = results if makes_events else list(map(_without_events, results))
-                if is_looked_at(scope):
-                    results = with_declared_units(signature, arguments, results, context, e.span)
-                return results
+                made = results if makes_events else list(map(_without_events, results))
+                return with_declared_units(signature, arguments, made, context, e.span) if is_looked_at(scope) else made
         except AtRunTime:
             pass
         except SizeVaries:

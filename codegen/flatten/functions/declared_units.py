@@ -17,7 +17,7 @@ from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Array, Value, scalars, with_scalars
 from lacuna.codegen.symbolic import expr as ex
-from lacuna.codegen.symbolic.annotated import in_units
+from lacuna.codegen.symbolic.annotated import in_units, measured, number
 from lacuna.codegen.symbolic.expr import REAL, Expr
 from lacuna.codegen.units.check import Body
 
@@ -92,15 +92,20 @@ def check_body(signature: Signature, arguments: dict[str, Value], context: Conte
         context.body = outer
 
 
+def mere_numbers(arguments: dict[str, Value]) -> dict[str, Value]:
+    """Arguments without the units of numbers: those of the inputs are declared, or those of whatever is given."""
+    return {
+        n: with_scalars(v, (number(s) if isinstance(s, Expr) else s for s in scalars(v))) for n, v in arguments.items()
+    }
+
+
 def with_declared_units(
     signature: Signature, arguments: dict[str, Value], results: list[Value], context: Context, span: Span
 ) -> list[Value]:
     """`results`, which the function gives of `arguments`, marked with the units that they declare, or with what the
     body makes of arguments where a number among these has a unit."""
-    if all(map(_is_number, _scalars(results))):
-        return results
     own = [_in_declared(local, r, signature, context) for local, r in zip(signature.outputs, results, strict=True)]
-    if all(local.unit for local in signature.outputs):
+    if all(local.unit for local in signature.outputs) or all(map(_is_number, _scalars(results))):
         return own
     meant = _of_numbers(signature, arguments, results, context, span)
     return [o if local.unit else m for local, o, m in zip(signature.outputs, own, meant, strict=True)]
@@ -111,7 +116,7 @@ def _in_declared(local: Local, result: Value, signature: Signature, context: Con
         return result
     name = f"{signature.cls.path}(...)" if len(signature.outputs) == 1 else f"{local.name} of {signature.cls.path}(...)"
     context.literal_units[name] = local.unit
-    return with_scalars(result, (_marked(s, ex.var(name)) for s in scalars(result)))
+    return with_scalars(result, (_declared(s, ex.var(name), local.unit) for s in scalars(result)))
 
 
 def _of_numbers(
@@ -154,6 +159,10 @@ def _named(local: Local, value: Value, signature: Signature, context: Context) -
         return ex.var(text)
 
     return with_scalars(value, map(name, items))
+
+
+def _declared(s: Expr | str, name: Expr, unit: str) -> Expr | str:
+    return measured(s, unit, str(name.value)) if _is_number(s) and not ex.is_nothing(s) else _marked(s, name)
 
 
 def _marked(s: Expr | str, meant: Expr | str) -> Expr | str:

@@ -11,9 +11,10 @@ from lacuna.codegen.flatten.classes.types import EXTERNAL, Type
 from lacuna.codegen.flatten.expressions.constants import evaluate, is_known
 from lacuna.codegen.flatten.expressions.enumerations import enumeration_of
 from lacuna.codegen.flatten.expressions.evaluate import evaluate_dimensions
-from lacuna.codegen.flatten.expressions.lower import lower
+from lacuna.codegen.flatten.expressions.lower import lower, modifier_value
 from lacuna.codegen.flatten.functions.locals import Local, signature_of
 from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.modifiers import Modifier, from_tree, merge, narrow
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import (
     Array,
@@ -21,6 +22,7 @@ from lacuna.codegen.flatten.names.values import (
     Record,
     Value,
     holds_records,
+    indices,
     items_of,
     scalars,
     shape_of,
@@ -147,40 +149,35 @@ def unset(kind: str, name: str) -> Expr:
     return ex.node("unset", (), name, kind)
 
 
-_Given = dict[str, tuple[ast.Modification, Scope]]  # what is said of fields, and where
-
-
-def blank(local: Local, scope: Scope, given: _Given | None = None) -> Value:
-    """What a variable holds before anything is assigned, in the sizes that it is declared with."""
+def blank(local: Local, scope: Scope, outer: Modifier | None = None) -> Value:
+    """What a variable holds before anything is assigned, in the sizes that it is declared with; of records also what
+    its declaration says of their fields, and `outer` from outside."""
     shape = tuple(0 if local.is_flexible else n for n in declared_sizes(local, scope, local.nothing))
-    nothing = (
-        unset(local.type.primitive, local.name) if local.type.primitive else _blank_record(local, scope, given or {})
-    )
-    return Array(shape, (nothing,) * prod(shape)) if shape else nothing
+    if local.type.primitive:
+        nothing = unset(local.type.primitive, local.name)
+        return Array(shape, (nothing,) * prod(shape)) if shape else nothing
+    said = merge(outer, from_tree(local.declaration.modification, scope))
+    places = [tuple(zip(index, shape, strict=True)) for index in indices(shape)]
+    records = tuple(_blank_record(local.type.cls, scope.context, narrow(said, place)) for place in places)
+    return Array(shape, records) if shape else records[0]
 
 
-def _blank_record(local: Local, scope: Scope, outer: _Given) -> Record:
-    """A record whose fields hold what is `given` from outside, or by its declaration, or by that of its class."""
-    given = _parts(local.declaration.modification, scope) | outer
+def _blank_record(cls: ast.Class, context: Context, said: Modifier) -> Record:
+    """A record whose fields hold what is said of them, or what its class does."""
     fields: dict[str, Value] = {}
-    for part in signature_of(local.type.cls, scope.context).locals:
+    for part in signature_of(cls, context).locals:
         inner = replace(part.scope, locals=dict(fields))
-        said, where = given.get(part.name, (ast.Modification(local.declaration.span), scope))
-        value, default = said.value, part.declaration.modification.value
-        if value is None and default is not None:
-            if said.arguments and part.type.primitive is None:
-                message = f"parts of {part.name} are modified, which has a value as a whole"
-                raise Diagnostic("R030", message, said.span, f"give {part.name} another value")
-            value, where = default, part.around_default(inner)
-        if value is None:
-            fields[part.name] = blank(part, inner, _parts(said, where))
+        given, default = said.children.get(part.name), part.declaration.modification.value
+        if given is not None and given.value is not None:
+            fields[part.name] = fit(part, modifier_value(given), inner, given.span)
+        elif default is None:
+            fields[part.name] = blank(part, inner, given)
+        elif given is not None and given.children and part.type.primitive is None:
+            message = f"parts of {part.name} are modified, which has a value as a whole"
+            raise Diagnostic("R030", message, given.span, f"give {part.name} another value")
         else:
-            fields[part.name] = fit(part, lower(value, where), inner, value.span)
-    return Record(local.type.cls.path, fields, local.type.cls)
-
-
-def _parts(tree: ast.Modification, where: Scope) -> _Given:
-    return {a.name: (a.modification, where) for a in tree.arguments}
+            fields[part.name] = fit(part, lower(default, part.around_default(inner)), inner, default.span)
+    return Record(cls.path, fields, cls)
 
 
 class SizeVaries(Diagnostic):

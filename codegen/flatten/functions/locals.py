@@ -18,7 +18,7 @@ from lacuna.codegen.flatten.names.values import (
     Array,
     Value,
 )
-from lacuna.codegen.flatten.references.written import check_names
+from lacuna.codegen.flatten.references.written import check_names, is_record
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.references import references
 from lacuna.units import UnknownSymbol, parse_unit
@@ -197,7 +197,8 @@ def signature_of(cls: ast.Class, context: Context) -> Signature:
         check_targets(body, declared if cls.kind == "function" else [])
         external = next((c for c in instance.classes if c.external is not None), None)
         written_in = next((c for section, c in instance.sections if section.items), cls)
-        check_names(body, Scope(context, written_in, in_function=True), frozenset(d.name for d in declared))
+        held = {d.name: d.type.cls if is_record(d.type.cls) else None for d in declared}
+        check_names(body, Scope(context, written_in, in_function=True), held)
         found = signatures[id(cls)] = Signature(cls, tuple(declared), body, written_in, external)
     return found
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from lacuna.codegen.errors import Diagnostic
@@ -10,13 +11,11 @@ from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.values import Value
 from lacuna.codegen.flatten.names.views import constrain, is_specialised, member, modified, redeclarations, view
 from lacuna.codegen.library.classes import Library
-from lacuna.codegen.library.predefined import PREDEFINED
+from lacuna.codegen.library.predefined import PREDEFINED, PRIMITIVES
 from lacuna.codegen.library.search_path import WITHOUT_MODELICA
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.syntax import ast
 from lacuna.suggest import did_you_mean
-
-PRIMITIVES = ("Real", "Integer", "Boolean", "String")
 
 
 @dataclass
@@ -31,6 +30,7 @@ class Scope:
     initial: bool = False  # in an initial section
     conditional: bool = False  # under a condition not known yet: what cannot be computed may never be asked for
     message: list[Expr] | None = None  # in the text of an assert: what varies in it
+    loop: Callable[..., Value] | None = None  # makes one of a reduction at run time
     pure: bool = False  # where no impure function may be called: lasting equations, functions that are not impure
 
     def with_locals(self, **values: Value) -> Scope:

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.names.scope import (
-    PRIMITIVES,
     Scope,
     base_classes,
     find_class,
@@ -15,6 +14,7 @@ from lacuna.codegen.flatten.names.scope import (
     own_or_inherited,
 )
 from lacuna.codegen.library.classes import HOME_PACKAGE, Library
+from lacuna.codegen.library.predefined import PRIMITIVES
 from lacuna.codegen.library.search_path import WITHOUT_MODELICA
 from lacuna.codegen.syntax import ast
 from lacuna.suggest import LISTED, did_you_mean, nearest, question
@@ -43,6 +43,8 @@ def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> 
     for name in ref.names[1:]:
         if current is None:
             break
+        if _means_nothing(library, current):
+            return unknown_class(library, current, current.alias.base, "class")
         known, missing = library.members(current), name
         more = f" and {len(known) - LISTED} more" if len(known) > LISTED else ""
         held = f"{current.name} has {', '.join(known[:LISTED])}{more}" if known else ""
@@ -75,12 +77,18 @@ def unknown_function(ref: ast.Ref, scope: Scope) -> Diagnostic:
     package = (
         find_class(library, scope.cls, replace(ref, names=before, subscripts=ref.subscripts[:-1])) if before else None
     )
-    if package is not None and package.alias is not None and not base_classes(library, package):
+    if package is not None and _means_nothing(library, package):
         return unknown_class(library, package, package.alias.base, "class")
     hint = did_you_mean(ref.names[-1], _functions_beside(package, scope), "declare it, or import its package")
     if scope.instance is not None and ref.names[0] in scope.instance.elements:
         hint = f"{ref} is a variable: index it as {ref}[i], multiply as {ref}*(...)"
     return Diagnostic("R004", f"there is no function {ref}", ref.span, hint)
+
+
+def _means_nothing(library: Library, cls: ast.Class) -> bool:
+    """Is it a short definition of a class that there is not?"""
+    alias = cls.alias
+    return alias is not None and str(alias.base) not in PRIMITIVES and not base_classes(library, cls)
 
 
 def _functions_beside(package: ast.Class | None, scope: Scope) -> list[str]:

@@ -10,9 +10,10 @@ from lacuna.codegen.flatten.expressions.enumerations import enumeration_of, inde
 from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Array, Value, shape_of, stack
-from lacuna.codegen.flatten.references.references import node_of
+from lacuna.codegen.flatten.references.references import is_known_here, node_of
 from lacuna.codegen.symbolic import expr as ex
-from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, REAL, TRUE, Expr
+from lacuna.codegen.symbolic.affine import offset
+from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, INTEGER, REAL, TRUE, Expr
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.references import references
 
@@ -82,9 +83,13 @@ def _index_set(reference: ast.Ref, at: int, position: int, scope: Scope) -> tupl
 
 
 def range_values(e: ast.Range, scope: Scope) -> Array:
-    """The values of a range of numbers, of an enumeration or of Booleans; its bounds are known at translation."""
+    """The values of a range of numbers, of an enumeration or of Booleans. Its bounds are known at translation, or vary
+    together, so that its size is known: `i:i + 1`."""
     parts = [e.first, e.step, e.last]
     lowered = [lower_scalar(p, scope) if p else None for p in parts]
+    moving = _moving(e, *lowered, scope)
+    if moving is not None:
+        return moving
     values = [
         known(v, scope, p.span, "a bound of the range") if p else None for v, p in zip(lowered, parts, strict=True)
     ]
@@ -100,6 +105,29 @@ def range_values(e: ast.Range, scope: Scope) -> Array:
             ex.const(type(first.value)(n)) for n in range(first.value, last.value + 1)))  # fmt: skip
     kind = float if REAL in {v.type for v in given} else int  # one Real makes all of them Reals (10.4.3)
     return _numbers(e, kind(first.value), 1 if step is None else kind(step.value), last.value, scope)
+
+
+def varying_bounds(iterator: ast.Iterator, scope: Scope) -> tuple[Expr, Expr, Expr] | None:
+    """First value, step and last value of a range of Integers that is not known at translation."""
+    e = iterator.range
+    if not isinstance(e, ast.Range):
+        return None
+    step = lower_scalar(e.step, scope) if e.step else ex.const(1)
+    first, last = (lower_scalar(b, scope) for b in (e.first, e.last))
+    if all(is_known_here(b, scope) for b in (first, last)) or {first.type, step.type, last.type} != {INTEGER}:
+        return None
+    return first, known(step, scope, e.span, "the step of the range"), last
+
+
+def _moving(e: ast.Range, first: Expr, step: Expr | None, last: Expr, scope: Scope) -> Array | None:
+    """The values of a range of Integers whose bounds vary and are a known number apart; None for any other."""
+    whole = first.type == last.type == INTEGER and not enumeration_of(first, scope.context)
+    length = offset(last, first) if whole and not is_known_here(first, scope) else None
+    if length is None:
+        return None
+    by = known(step, scope, e.step.span, "the step of the range") if step is not None else ex.const(1)
+    steps = _numbers(e, 0, by.value, length, scope)
+    return Array(steps.shape, tuple(ex.add(first, k) for k in steps.items))
 
 
 def _booleans(e: ast.Range, first: Expr, step: Expr | None, last: Expr) -> Array:

@@ -225,13 +225,13 @@ def _picked(
     value: Array, index: Expr, part: Callable[[Value], Value], scope: Scope, ref: ast.Ref, written: ast.Expression
 ) -> Value:
     """A part of the row of that number, which may be known only at run time."""
-    if index.op == "const" or _is_known_here(index, scope):
+    if index.op == "const" or is_known_here(index, scope):
         return part(_row(value, index, scope, ref, written))
     moved = at_index(value, index) if scope.in_function and value.shape[0] else None
     return part(moved) if moved is not None else _choose([part(r) for r in value.rows()], index, written, scope)
 
 
-def _is_known_here(index: Expr, scope: Scope) -> bool:
+def is_known_here(index: Expr, scope: Scope) -> bool:
     """Is a subscript known at translation; in a function, where its variables are no parameters of the model: is it a
     constant?"""
     if not scope.in_function:

@@ -3,18 +3,22 @@ known condition leaves out, in loops that are passed no time, in components that
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.instance import Absent, ArrayNode, Instance, Node
 from lacuna.codegen.flatten.classes.types import resolve_type
-from lacuna.codegen.flatten.names.scope import PRIMITIVES, Scope, find_class
+from lacuna.codegen.flatten.names.scope import Scope, find_class
 from lacuna.codegen.flatten.names.unknown import unknown_function
 from lacuna.codegen.flatten.references.class_values import from_class
 from lacuna.codegen.flatten.references.references import member
+from lacuna.codegen.library.predefined import PRIMITIVES
 from lacuna.codegen.syntax import ast
+from lacuna.suggest import did_you_mean
 
+Bound = Mapping[str, ast.Class | None]  # names of functions and loops; of those of records their classes
+_NONE: Bound = {}
 MEANINGLESS = ("R002", "R003", "R004")  # no variable, no element, no function; other faults are those of evaluation
 
 
@@ -51,12 +55,14 @@ def _check_declaration(instance: Instance, name: str) -> None:
     check_names(element.declaration.modification, scope)
 
 
-def check_names(tree: object, scope: Scope, bound: frozenset[str] = frozenset()) -> None:
+def check_names(tree: object, scope: Scope, bound: Bound = _NONE) -> None:
     """Raises R002, R003 or R004 for a name in a part of the syntax tree that is neither one of `bound` nor found."""
     if isinstance(tree, ast.Ref):
         check_names(tree.subscripts, scope, bound)
         if tree.absolute or tree.names[0] not in bound:
             _check_variable(tree, scope)
+        elif (record := bound[tree.names[0]]) is not None:
+            _check_fields(record, tree, scope)
     elif isinstance(tree, ast.Call | ast.PartialFunction):
         if tree.function.absolute or tree.function.names[0] not in bound:
             _check_function(tree.function, scope)
@@ -64,7 +70,7 @@ def check_names(tree: object, scope: Scope, bound: frozenset[str] = frozenset())
     elif isinstance(tree, ast.For | ast.Comprehension):
         for iterator in tree.iterators:
             check_names(iterator.range, scope, bound)
-            bound |= {iterator.name}
+            bound = {**bound, iterator.name: None}
         check_names(tree.body, scope, bound)
     elif isinstance(tree, ast.Argument):
         check_names(tree.modification, scope, bound)
@@ -98,6 +104,24 @@ def _check_elements(node: Node, ref: ast.Ref) -> None:
         if not isinstance(node, Instance) or node.cls.expandable:
             return
         node = member(node, ref, at)
+
+
+def _check_fields(cls: ast.Class, ref: ast.Ref, scope: Scope) -> None:
+    """As `_check_elements`, of a record that is no component."""
+    for name in ref.names[1:]:
+        elements = Instance(scope.context, cls, ref.names[0], None, None).elements
+        if name not in elements:
+            hint = did_you_mean(name, elements, f"{cls.name} has {', '.join(list(elements)[:12])}")
+            raise Diagnostic("R003", f"{ref.names[0]} has no element {name}", ref.span, hint)
+        element = elements[name]
+        found = resolve_type(element.declaration.type, Scope(scope.context, element.cls)).cls
+        if not is_record(found) or (element.modifier is not None and element.modifier.redeclare is not None):
+            return
+        cls = found
+
+
+def is_record(cls: ast.Class | None) -> bool:
+    return cls is not None and cls.kind in ("record", "operator record")
 
 
 def _check_function(ref: ast.Ref, scope: Scope) -> None:

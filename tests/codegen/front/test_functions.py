@@ -133,7 +133,7 @@ def test_array_results_of_a_kept_function_are_picked_apart(tmp_path: Path) -> No
     model = flatten_text(tmp_path, text)
     assert equations(model) == ["y[1] = split.y[1](time)", "y[2] = split.y[2](time)"]
     text = dump_flat(model)
-    assert "before_1[2] := [](y, 1);" in text, "elements assigned together read the old values"
+    assert "before 1[2] := [](y, 1);" in text, "elements assigned together read the old values"
     assert "(y, ) := split(x);" in text
 
 

@@ -122,3 +122,27 @@ end M;"""
     with pytest.raises(Diagnostic) as refused:
         flatten_text(tmp_path, text)
     assert (refused.value.code[:2], refused.value.span.line, refused.value.others) == ("U0", line, [])
+
+
+@pytest.mark.parametrize(
+    ("uses", "code"),
+    [
+        ('Real f(unit = "N") = weight(2); parameter Real p(unit = "N", start = weight(1)) = weight(3);', None),
+        ('Real f(unit = "m") = weight(2);', "U001"),
+        ('parameter Real p(unit = "m") = weight(2); Real y = p*time;', "U001"),
+        ('Real l(unit = "m") = 3; Real y = l + weight(2);', "U002"),
+        ('Real f(unit = "N") = weight(weight(2));', "U003"),
+        ('Real f[2](each unit = "m") = {weight(k) for k in 1:2};', "U001"),
+    ],
+)
+def test_the_result_of_numbers_has_the_unit_that_is_declared(tmp_path: Path, uses: str, code: str | None) -> None:
+    text = WEIGHT + f"model M {uses} end M;"
+    if code is None:
+        model = flatten_text(tmp_path, text)
+        assert model.warnings == []
+        left = (model.equations[0].rhs, model.variables["p"].binding, model.variables["p"].start)
+        assert [type(e.value) for e in left] == [float] * 3  # nothing is left of it
+        return
+    with pytest.raises(Diagnostic) as refused:
+        flatten_text(tmp_path, text)
+    assert refused.value.code == code, str(refused.value)

@@ -12,6 +12,7 @@ from lacuna.codegen.flatten.equations.effects import effect
 from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.lower import lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.functions.fitting import blank, declared_sizes, fit, typed, unknown_target
+from lacuna.codegen.flatten.functions.kept.loops import Begun, bounds, looped
 from lacuna.codegen.flatten.functions.kept.parts import matched, parts, variables_of
 from lacuna.codegen.flatten.functions.kept.stores import decided, deciding, read_what_is_set, stores
 from lacuna.codegen.flatten.functions.kept.whole_calls import called
@@ -30,7 +31,7 @@ class Writer:
     """Statements of one function; a target is (name, subscripts as values or None for all of it)."""
 
     def __init__(self, function: flat.Function, scope: Scope) -> None:
-        self.function, self.scope = function, scope
+        self.function, self.scope = function, replace(scope, loop=self._looped)
         self.counter = 0
         self._begun: list[tuple[Local, Value, Value]] = []  # with their variables and, of records, what they hold
 
@@ -44,7 +45,7 @@ class Writer:
 
     def declare_local(self, local: Local, inputs: dict[str, Value]) -> None:
         """An input, a result or a protected variable; what its declaration gives it follows by `begin`."""
-        scope, default = replace(local.scope, locals=self.scope.locals), local.declaration.modification.value
+        scope, default = self._declaring(local), local.declaration.modification.value
         if local.name in inputs:
             self.declare(local.name, inputs[local.name])
             return
@@ -61,13 +62,17 @@ class Writer:
         if local.type.primitive is None or default is not None:
             self._begun.append((local, variables, given))
 
+    def _declaring(self, local: Local) -> Scope:
+        """That of what stands in a declaration."""
+        return replace(local.scope, locals=self.scope.locals, loop=self._looped)
+
     def begin(self) -> None:
         """The statements of the declarations, in their order: they may call the function itself, whose results are
         declared by now."""
         for local, variables, given in self._begun:
             span, default = local.declaration.span, local.declaration.modification.value
             if local.type.primitive is not None:
-                scope = replace(local.scope, locals=self.scope.locals)
+                scope = self._declaring(local)
                 value = fit(local, lower(default, local.around_default(scope)), scope, default.span)
                 self.assign([((local.name, variables), value)], default.span, self.function.body)
                 continue
@@ -129,8 +134,7 @@ class Writer:
             else:
                 self._unrolled(item, iterate(first, outer, item.body), first, rest, result)
         except AtRunTime:
-            bounds = first.range.first, first.range.step, first.range.last
-            if any(b is not None and lower_scalar(b, outer, INTEGER).op != "const" for b in bounds):
+            if any(b.op != "const" for b in bounds(first.range, outer)):
                 raise
             self.scope = outer
             self.function.shapes, self.function.types = before
@@ -138,9 +142,8 @@ class Writer:
         finally:
             self.scope = outer
 
-    def _kept(self, item: ast.For, bounds: ast.Range, first: ast.Iterator, rest: list[ast.Iterator]) -> flat.For:
-        low, high = (lower_scalar(b, self.scope, INTEGER) for b in (bounds.first, bounds.last))
-        step = lower_scalar(bounds.step, self.scope, INTEGER) if bounds.step else ex.const(1)
+    def _kept(self, item: ast.For, written: ast.Range, first: ast.Iterator, rest: list[ast.Iterator]) -> flat.For:
+        low, step, high = bounds(written, self.scope)
         name = first.name if first.name not in self.function.types else self._fresh(first.name)
         self.scope = self.scope.with_locals(**{first.name: ex.var(name, INTEGER)})
         body: list[flat.Statement] = []
@@ -160,9 +163,13 @@ class Writer:
         once, left = ex.const(1), not rest and _is_left(item.body)
         result += [flat.For(self._fresh(first.name), once, once, once, rounds, item.span)] if left else rounds
 
+    def _looped(self, e: ast.Comprehension, begun: Begun, scope: Scope) -> Value:
+        return looped(e, begun, scope, self.function.name, self._fresh)
+
     def _fresh(self, stem: str) -> str:
+        """A name that no variable can have."""
         self.counter += 1
-        return f"{stem}_{self.counter}"
+        return f"{stem} {self.counter}"
 
     def _assignment(self, item: ast.Assignment, result: list[flat.Statement]) -> None:
         several = isinstance(item.target, ast.Tuple)
