@@ -184,6 +184,14 @@ def of_factors(factors: Iterable[tuple[str, int | Fraction]]) -> str:
     return f"{above}/({below})" if "." in below else f"{above}/{below}"
 
 
+def per_second(text: str) -> str:
+    """The unit of a rate of what has this one; none of none. With a prefix as it is: mg/l a second is mg/(l.s)."""
+    powers: dict[str, int | Fraction] = {}
+    for symbol, power in [*factors_of(text), ("s", -1)] if text else ():
+        powers[symbol] = powers.get(symbol, 0) + power
+    return of_factors(powers.items()) if powers else ""
+
+
 def _no_unit(text: str) -> ValueError:
     return ValueError(f"{text!r} is no unit: write products as N.m, quotients as rad/s, powers as m2")
 

@@ -18,8 +18,8 @@ REACTOR = """model Reactor "A stirred basket of catalyst, first order"
   parameter Real V(unit="m3", min=0) = 0.02;
   parameter Real k(unit="1/s", min=0) = 0.02;
   input Real q(unit="m3/s");
-  input Real c0(unit="mol/m3");
-  Real c(unit="mol/m3", start=100, fixed=true);
+  input Real c0(unit="g/m3");
+  Real c(unit="g/m3", start=100, fixed=true);
 equation
   V*der(c) = q*(c0 - c) - V*k*c;
 end Reactor;
@@ -50,7 +50,7 @@ equation
   C*der(T) = P - G*(T - 293);
 end Wall;
 """
-UNITS = {"q": "m3/s", "c0": "mol/m3", "c": "mol/m3", "h": "m", "out": "m3/s", "P": "W", "T": "K"}
+UNITS = {"q": "m3/s", "c0": "g/m3", "c": "g/m3", "h": "m", "out": "m3/s", "P": "W", "T": "K"}
 
 
 def test_what_has_come_together_follows_its_integral() -> None:

@@ -8,7 +8,6 @@ import re
 
 import numpy as np
 
-from lacuna.codegen.units.inference import SECOND
 from lacuna.discovery.efforts.guide import Guided
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws.regression import Regression
@@ -21,7 +20,7 @@ from lacuna.discovery.efforts.places.families import is_shared, meant
 from lacuna.discovery.efforts.places.place import Place
 from lacuna.discovery.law.law import Site as LawSite
 from lacuna.discovery.law.law_terms import Group, Variable
-from lacuna.units import parse_unit
+from lacuna.units import per_second
 
 
 def offered_at(locator: Locator, place: Place, guided: Guided) -> tuple[Regression, range]:
@@ -109,7 +108,7 @@ def _unheld(locator: Locator, guided: Guided, found: list[Variable]) -> list[Var
             values = piece.along.values
             values[f"unheld {name}"] = values[name] - piece.along.direct[:, row, column] * effort
             largest = max(largest, float(np.abs(values[f"unheld {name}"]).max()))
-        local, unit = f"x{len(found) + len(rates) + 1}", str(parse_unit(v.unit) / SECOND) if v.unit else ""
+        local, unit = f"x{len(found) + len(rates) + 1}", per_second(v.unit)
         rates.append(Variable(local, name, unit, "unheld", float(f"{largest:.2g}")))
     return rates if all(v.size > 0 for v in rates) else []
 

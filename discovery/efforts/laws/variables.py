@@ -10,13 +10,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from lacuna.codegen.units.inference import SECOND
 from lacuna.discovery.catalogue.attachment import OWN
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.places.sites import MOST
 from lacuna.discovery.law.law_terms import Variable
 from lacuna.runtime.model import Variable as ModelVariable
-from lacuna.units import parse_unit
+from lacuna.units import per_second
 
 APART = 6  # differences of variables at most: of three places with their surroundings all
 SAME = 1e-3  # of their largest value, within which a variable is a polynomial of another one
@@ -58,7 +57,7 @@ def variables(
         scaled = course / size
         if any(_says_nothing_new(scaled, c) for c in courses):
             continue
-        unit = units.get(name) or _rate(units.get(name.removeprefix("der(").removesuffix(")"), ""))
+        unit = units.get(name) or per_second(units.get(name.removeprefix("der(").removesuffix(")"), ""))
         driven = name in known and known[name].kind == "input"
         kind = "state" if name in order else "rate" if name in answering else "input" if driven else "other"
         switch = name in known and known[name].type == "Boolean"
@@ -192,7 +191,3 @@ def _says_nothing_new(course: np.ndarray, known: np.ndarray) -> bool:
     """Whether a quantity is another one on another scale, or a power of it (an energy beside a speed)."""
     basis = np.vander(known, DEGREE + 1)
     return bool(np.abs(course - basis @ np.linalg.lstsq(basis, course, rcond=None)[0]).max() < SAME)
-
-
-def _rate(unit: str) -> str:
-    return str(parse_unit(unit) / SECOND) if unit else ""

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from lacuna.units import format_unit, parse_unit
+from lacuna.units import format_unit, parse_unit, per_second
 from tests.codegen.front.helpers import flatten_text
 
 
@@ -97,3 +97,13 @@ def test_a_unit_in_another_notation_is_read_and_said(tmp_path: Path, text: str, 
 @pytest.mark.parametrize("text", ["N.m", "W/(m2.K)", "1/s", "s-1", "m0.5", "1", "kg.m2/(s3.A)", "%", "(N.m)/rad"])
 def test_a_unit_of_the_language_is_not_remarked_on(tmp_path: Path, text: str) -> None:
     assert flatten_text(tmp_path, f'model M\n  parameter Real h(unit = "{text}") = 5;\nend M;').warnings == []
+
+
+@pytest.mark.parametrize(
+    ("unit", "rate"),
+    [("", ""), ("1", "1/s"), ("m", "m/s"), ("m/s", "m/s2"), ("g/m3", "g/(m3.s)"), ("mm", "mm/s"), ("W.s", "W")],
+)
+def test_the_unit_of_a_rate_is_a_unit_with_its_prefixes(unit: str, rate: str) -> None:
+    """That of g/m3 was 0.001 kg/(m3.s), which is none."""
+    assert per_second(unit) == rate
+    assert not unit or parse_unit(rate).factor == parse_unit(unit).factor
