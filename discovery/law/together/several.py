@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import combinations
 
 import numpy as np
 
@@ -60,6 +61,39 @@ def go_on(search: Search, library: Library, progress: Progress) -> None:
             _find_anew(search, k, library, progress)
     if len(search.findings) > known:
         search.drop_needless(progress)
+    while len(search.findings) > 2 and _one_for_two(search, library, progress):
+        pass
+
+
+def _one_for_two(search: Search, library: Library, progress: Progress) -> bool:
+    """Whether one law elsewhere is taken in the place of two findings, where deviance and prices are less: what pulls
+    a cage pulls its rope less what turns the sheave, and may have been found as that."""
+    taken = {f.ranked.attachment.location for f in search.findings}
+    for pair in combinations(search.findings, 2):
+        amendment, base = search.amendment, search.fit
+        for old in pair:
+            others = [a for a in amendment.attachments if a is not old.ranked.attachment]
+            amendment = replace(amendment, attachments=others)
+            base = base and without(base, old.ranked, amendment)
+        if base is None:
+            continue
+        both = " and ".join(f.ranked.attachment.location for f in pair)
+        progress(f"looking for one law in the place of those at {both}")
+        law = _best(search, amendment, base, library, progress, lambda site: not any(map(site.place.named, taken)))
+        if law is None:
+            continue
+        correlation = law.fit.correlation()
+        paid_now = sum(
+            price(len(f.ranked.candidate.free), base, correlation) + 2 * f.ranked.candidate.pick for f in pair
+        )
+        present = search.fit.deviance(correlation) + paid_now - base.deviance(correlation)
+        after = try_judge(law.machine, law.fit.point) if score(law, base, correlation) < present else None
+        if after is not None:
+            others = [f for f in search.findings if not any(f is old for old in pair)]
+            search.findings[:] = [*others, finding(law, base, pair[0].before, after)]
+            search.take([*amendment.attachments, law.attachment], law.fit, after)
+            return True
+    return False
 
 
 def apart(search: Search, unbegun: Search, single: Candidate, library: Library, progress: Progress) -> None:
