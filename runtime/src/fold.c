@@ -70,7 +70,6 @@ static void set_out(rt_session *s, double t, const double *x, double *v, double 
 /* At the start of a run. */
 void rt_branch_start(rt_session *s) {
   s->branches.pieces = MOST_PIECES;
-  s->branches.switched = -INFINITY;
   memset(s->branches.size, 0, (size_t)s->d->n_branches * sizeof(double));
   memset(s->branches.facing, 0, (size_t)s->d->n_equations * sizeof(double));
   rt_branch_begin(s);

@@ -14,7 +14,6 @@ typedef struct {
   double reached;                      /* where those are that have been reached; */
   double *facing, *facing_reached;     /* [n_equations] sides (mdl_data.facing) at the one and the other; */
   double *orientation, *aside;         /* at the session's point, and at the last other point looked at */
-  double switched;                     /* where relations were last switched for it (stray.c) */
   long pieces;                         /* that may still be looked at */
   bool ended;                          /* by a fold, at the session's present point */
 } rt_branches;

@@ -77,13 +77,12 @@ bool rt_branch_strays(rt_session *s, double end, const double *x, const double *
  * there, as near as can be told, that is where it switches, though nothing lies behind to show it (z^2 = max(x, 0)
  * where x comes to 0). Not what has just switched there. */
 bool rt_branch_switches(rt_session *s) {
-  rt_branches *b = &s->branches;
+  const rt_branches *b = &s->branches;
   mdl_data *m = &s->data;
   mdl_failure_kind why = m->failure.kind;
   bool any = false, singular = why == MDL_FAILURE_NEWTON || why == MDL_FAILURE_SINGULAR;
   if (!s->d->n_branches || !singular || s->failure.status != RT_SINGULAR || s->sensitivities || b->ended) return false;
-  if (s->d->n_u) rt_inputs_at(s, b->t);
-  if (!(b->t > b->switched) || s->d->roots(m, b->t, b->x, b->xdot, b->v, s->g_trial)) return false;
+  if (s->d->roots(m, b->t, b->x, b->xdot, b->v, s->g_trial)) return false;
   for (int r = 0; r < s->d->n_rel; r++) {
     s->flip[r] =
         rt_is_state_relation(s, r) && fabs(s->g_trial[r]) <= rt_hysteresis(s, r) && s->changed_at[m->rel[r]][r] < b->t;
@@ -99,8 +98,7 @@ bool rt_branch_switches(rt_session *s) {
   s->t = s->t_end = b->t;
   s->pending = RT_PENDING_STATE;
   s->resume = s->in_pieces = s->dense.valid = false;
-  b->switched = b->t;
-  return !s->method->restart(s, s->memory); /* it may have gone farther */
+  return true;
 }
 
 /* A step has been given up: from where it began. */
