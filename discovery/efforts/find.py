@@ -19,7 +19,7 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.trace import left, looking
 from lacuna.discovery.efforts.instruments import colour_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
-from lacuna.discovery.efforts.law_at import law_at, terms_of
+from lacuna.discovery.efforts.law_at import TRIED, law_at, terms_of
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.efforts.places.sites import SEVERAL
@@ -29,7 +29,6 @@ from lacuna.discovery.naming.comparison import TIE, rival_score, said
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.runtime import SimulationError
 
-TRIED = 3  # places at most at which laws are fitted
 INDIFFERENT = 5.0  # nats, below which two places are told as one
 WORTH = 0.3  # of the best place's gain, that another one must have to be tried where the best one's law leaves too much
 

@@ -24,7 +24,7 @@ from lacuna.discovery.naming.race import NEAR
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.runtime import SimulationError
 
-TRIED = 3  # laws of one group of terms, and of two, that are fitted at a place
+TRIED = 3  # places at most at which laws are fitted, and laws of one group of terms there, and of two
 
 Progress = Callable[[str], None]
 

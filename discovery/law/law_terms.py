@@ -34,7 +34,6 @@ TIMES = (0.1, 0.3, 1.0)  # of the longest recording: time constants of what fade
 EXPONENTS = (0.5, 1.5, 2.0, 3.0, 4.0)  # where powers start: flow through an orifice to radiation
 BEYOND = (1.5, 2.0)  # powers of what is beyond a threshold: weirs, contacts
 WHOLE = (1 / 3, 2 / 3, 1.0, 7 / 4, *EXPONENTS, 5.0)  # exponents that are told as such
-EQUAL = 1e-9  # share by which what is kept from sample to sample may vary: rounding of their times
 AGES = re.compile(r"(?:^|(?<=\*))(?:warmth|total|spent)\((.*), [^,()]+\)$")  # of what was done since the start
 HIGHEST = 200.0  # rad/s: fastest vibration that is looked for
 OCTAVE = 1.6  # times pi over the longest recording: spacing of the frequencies that are looked at
@@ -161,7 +160,7 @@ def lagged(time: np.ndarray, values: np.ndarray, tau: complex) -> np.ndarray:
     mean = (1 - keeps) / (np.diff(time) / tau)  # of what is kept over an interval
     added = (1 - mean) * values[1:] + (mean - keeps) * values[:-1]
     state = values[0].item()
-    if np.ptp(keeps) <= EQUAL * abs(keeps[0]):
+    if np.allclose(keeps, keeps[0], rtol=1e-9, atol=0.0):  # but for the rounding of times
         behind, _ = lfilter([1.0], [1.0, -keeps[0]], added, zi=[keeps[0] * state])
         return np.concatenate([[state], behind])
     result = [state]

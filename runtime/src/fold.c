@@ -55,10 +55,9 @@ static void turn(const rt_session *s, double *side, const double *from) {
 }
 
 /* The branch goes on from here. */
-static void set_out(rt_session *s, double t, const double *x, double *v, double *xdot, const double *side) {
+static void set_out(rt_session *s, double t, double *v, double *xdot, const double *side) {
   rt_branches *b = &s->branches;
   b->t = t;
-  memcpy(b->x, x, (size_t)s->d->n_x * sizeof *x);
   turn(s, b->facing, side);
   b->reached = NAN;
   copy(s, b->v, b->xdot, v, xdot);
@@ -79,7 +78,8 @@ void rt_branch_start(rt_session *s) {
 void rt_branch_begin(rt_session *s) {
   s->branches.ended = false;
   if (!s->d->n_branches) return;
-  set_out(s, s->t, s->data.x, s->data.v, s->data.xdot, s->branches.orientation);
+  memcpy(s->branches.x, s->data.x, (size_t)s->d->n_x * sizeof(double));
+  set_out(s, s->t, s->data.v, s->data.xdot, s->branches.orientation);
 }
 
 /* The point (t, x_trial) from the values reached, in v_tried; 0 found. `only`: 0, or 1 + the block to watch. */
@@ -239,7 +239,7 @@ bool rt_branch_take(rt_session *s) {
   return true;
 }
 
-/* A row at t inside the last step (recorder.x); `found`: its values, from those of the row before. */
+/* A row at t inside the last step; `found`: its values, from those of the row before. */
 rt_status rt_branch_row(rt_session *s, double t, double *xdot, double *v, bool found) {
   if (!s->d->n_branches || s->branches.ended) return found ? RT_OK : rt_fail_model(s, t, "evaluating outputs");
   if (!found || is_doubtful(s)) {
@@ -249,7 +249,7 @@ rt_status rt_branch_row(rt_session *s, double t, double *xdot, double *v, bool f
     copy(s, v, xdot, s->branches.v_reached, s->branches.xdot_reached);
     turn(s, s->branches.aside, s->branches.facing_reached);
   }
-  set_out(s, t, s->recorder.x, v, xdot, s->branches.aside);
+  set_out(s, t, v, xdot, s->branches.aside);
   return RT_OK;
 }
 
@@ -260,12 +260,7 @@ rt_status rt_branch_follow(rt_session *s) {
   rt_branches *b = &s->branches;
   bool certain = !s->method->multistep && !is_doubtful(s);
   if (!s->d->n_branches || certain || !(s->t > b->t)) return RT_OK;
-  rt_failure before = s->failure;
   rt_status status = b->reached == s->t ? RT_OK : reach(s, s->t);
-  if (status && !b->ended && rt_step_short(s)) {
-    s->failure = before;
-    status = reach(s, s->t);
-  }
   if (status) return status;
   copy(s, b->v_tried, b->xdot_tried, s->data.v, s->data.xdot);
   if (changed(s, -1) <= 1) return RT_OK;

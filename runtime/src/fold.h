@@ -8,7 +8,7 @@
 
 typedef struct {
   double t;                            /* of the last point of the run whose values are known to be one branch, */
-  double *v, *xdot, *x;                /* [n_v], [n_x] and these values; the states there */
+  double *v, *xdot, *x;                /* [n_v], [n_x] and these values; the states where a step began */
   double *v_reached, *xdot_reached;    /* those while it is followed, */
   double *v_tried, *xdot_tried, *size; /* and of a point that is tried; [n_branches] largest values so far */
   double reached;                      /* where those are that have been reached; */
@@ -29,7 +29,6 @@ rt_status rt_branch_follow(rt_session *s);
 /* stray.c */
 bool rt_branch_is_reached(rt_session *s, double end);
 bool rt_branch_strays(rt_session *s, double end, const double *x, const double *xdot, bool turned, rt_status *status);
-bool rt_branch_switches(rt_session *s);
 void rt_branch_retreat(rt_session *s);
 
 #endif

@@ -115,12 +115,6 @@ static rt_status move_back(rt_session *s, double t) {
   return rt_fail_model(s, t, "evaluating the model at an event");
 }
 
-/* From the crossing of an event to just before it: whether the branch that is left there has values. */
-bool rt_step_short(rt_session *s) {
-  if (!(s->pending & RT_PENDING_STATE) || !(s->t_uncrossed > s->t_previous && s->t_uncrossed < s->t)) return false;
-  return !move_back(s, s->t_uncrossed);
-}
-
 /* Extremes of the guards. */
 static void extend(rt_session *s) {
   for (int r = 0; r < s->d->n_rel; r++)

@@ -128,7 +128,6 @@ rt_status rt_advance(rt_session *s) {
   if (!status) status = rt_find_state_event(s);
   if (!status) status = rt_tangent_follow(s);
   if (!status) status = rt_branch_follow(s);
-  if (status && rt_branch_switches(s)) status = RT_OK;
   if (status && s->branches.ended) (void)rt_record_step(s); /* up to there */
   if (!status) status = rt_delays_follow(s);
   if (!status) status = rt_transports_follow(s);
@@ -137,7 +136,7 @@ rt_status rt_advance(rt_session *s) {
   if (status) return status;
   s->pending |= rt_clock_due(s);
   if (!s->pending) s->resume = s->t < s->t_end;
-  if ((status = rt_record_step(s)) && !rt_branch_switches(s)) return status;
+  if ((status = rt_record_step(s))) return status;
   rt_branch_begin(s);
   return RT_OK;
 }

@@ -73,34 +73,6 @@ bool rt_branch_strays(rt_session *s, double end, const double *x, const double *
   return false;
 }
 
-/* The run cannot go on from its last accepted point: where a block has no solution any more while a relation is at zero
- * there, as near as can be told, that is where it switches, though nothing lies behind to show it (z^2 = max(x, 0)
- * where x comes to 0). Not what has just switched there. */
-bool rt_branch_switches(rt_session *s) {
-  const rt_branches *b = &s->branches;
-  mdl_data *m = &s->data;
-  mdl_failure_kind why = m->failure.kind;
-  bool any = false, singular = why == MDL_FAILURE_NEWTON || why == MDL_FAILURE_SINGULAR;
-  if (!s->d->n_branches || !singular || s->failure.status != RT_SINGULAR || s->sensitivities || b->ended) return false;
-  if (s->d->roots(m, b->t, b->x, b->xdot, b->v, s->g_trial)) return false;
-  for (int r = 0; r < s->d->n_rel; r++) {
-    s->flip[r] =
-        rt_is_state_relation(s, r) && fabs(s->g_trial[r]) <= rt_hysteresis(s, r) && s->changed_at[m->rel[r]][r] < b->t;
-    any |= s->flip[r];
-  }
-  if (!any) return false;
-  memcpy(s->g, s->g_trial, (size_t)s->d->n_rel * sizeof *s->g);
-  memcpy(m->x, b->x, (size_t)s->d->n_x * sizeof *m->x);
-  memcpy(m->xdot, b->xdot, (size_t)s->d->n_x * sizeof *m->xdot);
-  memcpy(m->v, b->v, (size_t)s->d->n_v * sizeof *m->v);
-  m->failure.kind = MDL_FAILURE_NONE;
-  s->failure = (rt_failure){.status = RT_OK, .variable = -1};
-  s->t = s->t_end = b->t;
-  s->pending = RT_PENDING_STATE;
-  s->resume = s->in_pieces = s->dense.valid = false;
-  return true;
-}
-
 /* A step has been given up: from where it began. */
 void rt_branch_retreat(rt_session *s) {
   rt_branches *b = &s->branches;

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 import math
 from pathlib import Path
 
@@ -144,24 +143,3 @@ end Cube;"""
     quarter = math.sqrt(math.pi) / 2 * math.gamma(2 / 3) / math.gamma(7 / 6)
     exact = quarter * np.array([0, 1, 0, -1, 0, 1, 0])
     np.testing.assert_allclose(r["z"], exact, atol=1000 * rtol)
-
-
-@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
-@pytest.mark.parametrize("rtol", [1e-4, 1e-6, 1e-8])
-@pytest.mark.parametrize(
-    ("rate", "exact"), [("-x", lambda t: np.exp(-t)), ("-2*sqrt(max(x, 0))", lambda t: np.maximum(1 - t, 0) ** 2)]
-)
-def test_a_root_comes_to_rest_where_its_relation_switches(
-    tmp_path: Path, solver: str, rtol: float, rate: str, exact: Callable[[np.ndarray], np.ndarray]
-) -> None:
-    """z^2 = x ends at x = 0, where max(x, 0) goes over to 0: nothing lies behind that would show that it does."""
-    text = f"""model Rest
-  Real x(start=1, fixed=true), z(start=1);
-equation
-  der(x) = {rate}; z^2 = max(x, 0);
-end Rest;"""
-    r = simulated(tmp_path, text, solver=solver, stop=40, rtol=rtol, interval=0.4, events=False)
-    assert r.complete, r.failure
-    np.testing.assert_allclose(r["x"], exact(r["time"]), atol=10 * rtol)
-    np.testing.assert_allclose(r["z"] ** 2, np.maximum(r["x"], 0), atol=1e-9)
-    assert r.counters["steps"] < 10_000

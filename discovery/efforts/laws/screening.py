@@ -21,7 +21,6 @@ Scored = tuple[float, Regression, tuple[int, ...]]  # deviance and prices, group
 
 FAMILIES = 12  # kinds of terms whose shapes are refined, and beside which, and a constant, a second one is looked for
 ZOOMS, FINE = 3, 9  # times that a shape is refined, and values each time; each is a quarter of the last one's spacing
-AGED = 2  # laws of what was done since the start that are tried beside others
 PAIRS = 6  # kinds of pairs whose shapes are refined
 SAME = 1e-3  # share of what a law explains, by which another one must differ to be tried beside it
 
@@ -138,7 +137,7 @@ def _best(found: list[tuple[Regression, list[tuple[int, ...]]]], most: int) -> l
     if alone is not None and len(best) >= most > 1 and not any(map(_is_own, best)):
         best[-1] = alone
     worst = best[-1][0] if best else np.inf
-    aged = _distinct((law for law in (*more, *own) if _ages(law) and law[0] < worst), AGED)
+    aged = _distinct((law for law in (*more, *own) if _ages(law) and law[0] < worst), most - 1)
     return [_proposal(r, groups) for _, r, groups in sorted([*best, *aged], key=_in_order)]
 
 

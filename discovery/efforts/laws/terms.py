@@ -13,12 +13,12 @@ from dataclasses import replace
 import numpy as np
 
 from lacuna.discovery.efforts.laws.lagging import ageing, late, remembering, swinging
+from lacuna.discovery.efforts.places.sites import MOST
 from lacuna.discovery.law.law_terms import BEYOND, DRY, EXPONENTS, Group, Shape, Variable, exponent, stribeck
 
 LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers
 CYCLES = 30  # of a wave along a variable, over the range that it has
 TURN = 1.6  # rad from one wave number to the next at the ends of the range: so that none is missed
-NEAREST = 4  # variables at a place whose coefficients change with what others have done: most balances have fewer
 AWAY = 0.05  # of its largest value, that a variable stays above for laws that divide by it, or hold by it at rest
 
 
@@ -68,7 +68,8 @@ def _aged(
     does = [v for v in common if v.kind not in ("rate", "above") and not v.switch]
     every = ["1", *(g for v in does for g in done(v))]
     own = [v for v in found if v.kind == "through"]
-    behind = [("", every), *((v.scaled, every) for v in does[:NEAREST]), *((v.scaled, done(v)) for v in does[NEAREST:])]
+    near, far = does[: MOST // 3], does[MOST // 3 :]
+    behind = [("", every), *((v.scaled, every) for v in near), *((v.scaled, done(v)) for v in far)]
     behind += [(factor, done(v)) for v in own for factor in ("", v.scaled)]
     result = [g for factor, what in behind for g in ageing(factor, what, interval, duration)]
     for v in does:
@@ -111,10 +112,12 @@ def _of_one_sign(v: Variable, low: float, high: float) -> list[Group]:
 
 
 def thresholds(low: float, high: float) -> tuple[list[Shape], list[Shape]]:
-    """Levels that a scaled variable goes beyond, upwards and downwards: quarters of its range, wherever its zero is."""
-    step = (high - low) / 4
-    up = [Shape("q", "1", low + k * step, low, high, (), step) for k in (1, 2, 3)]
-    return up, [replace(q, start=-q.start, lower=-high, upper=-low) for q in up]
+    """Levels that a scaled variable goes beyond, upwards and downwards, at quarters of its range; of that from zero,
+    where it comes nearer to that than half of what it reaches."""
+    begin, end = low if low < 0 or low > 1 / 2 else 0.0, high if high > 0 or high < -1 / 2 else 0.0
+    step = (end - begin) / 4
+    up = [Shape("q", "1", begin + k * step, begin, end, (), step) for k in (1, 2, 3)]
+    return up, [replace(q, start=-q.start, lower=-end, upper=-begin) for q in up]
 
 
 def _yielding(v: Variable) -> list[Group]:

@@ -15,10 +15,11 @@ import numpy as np
 
 from lacuna.discovery.catalogue.attachment import values_of
 from lacuna.discovery.catalogue.trace import left, looking
-from lacuna.discovery.efforts.find import TRIED, Found, alike, simplest
+from lacuna.discovery.efforts.find import Found, alike, simplest
 from lacuna.discovery.efforts.guide import guide
 from lacuna.discovery.efforts.instruments import NATS
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
+from lacuna.discovery.efforts.law_at import TRIED
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.fit.evidence import LEFT, excess, nearly_noise, pays

@@ -18,9 +18,10 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.case.signals import Signal
-from lacuna.discovery.efforts.find import TRIED, Found, add_laws, places_of, simplest
+from lacuna.discovery.efforts.find import Found, add_laws, places_of, simplest
 from lacuna.discovery.efforts.instruments import NATS
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
+from lacuna.discovery.efforts.law_at import TRIED
 from lacuna.discovery.efforts.located import Site
 from lacuna.discovery.fit.evidence import pays, within_instruments
 from lacuna.discovery.fit.fit import Fit
