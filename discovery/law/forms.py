@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import math
 import re
 
-from lacuna.discovery.law.law_terms import Variable
+from lacuna.discovery.law.law_terms import AGES, Variable
 from lacuna.units import parse_unit
 
 NEAR = 0.15  # by which an exponent may differ from that of a form
@@ -82,7 +82,7 @@ FORMS = (
     Form("backlash", r"^X\*\(1 - sign\(absY - \S+\)\)$", FORCE, SPEED, between=True),
 )
 
-KINDS = 3  # of groups, each as likely before: of a known form, a function of one variable, one of several
+KINDS = 3  # of groups, each as likely before: of a known form, of one variable, of several or of what was done
 
 
 Term = tuple[str, Mapping[str, str]]  # text, and the names that its shapes have among the values
@@ -108,8 +108,13 @@ def picked(
     if tuple(texts) == ("1",) or any(_named(text, variables, gives, {}) for text in texts):
         known = sum(_may_be(f, gives, v) for f in FORMS for v in variables)
         return math.log(KINDS * (1 + known))
-    several = len({v.local for v in variables for text in texts if f"{v.local}_ref" in text}) > 1
-    return math.log(KINDS * max(offered[several], 1))
+    return math.log(KINDS * max(offered[is_of_several(texts, variables)], 1))
+
+
+def is_of_several(texts: Sequence[str], variables: Sequence[Variable]) -> bool:
+    """Whether a group is of several variables, or of one and what was done since the start."""
+    read = {v.local for v in variables for text in texts if f"{v.local}_ref" in text}
+    return len(read) > 1 or any(AGES.search(text) for text in texts)
 
 
 def _named(text: str, variables: Sequence[Variable], gives: str, shapes: Mapping[str, float]) -> str:

@@ -14,6 +14,7 @@ import numpy as np
 
 from lacuna.discovery.efforts.laws.lagging import ageing, late, remembering, swinging
 from lacuna.discovery.efforts.places.sites import MOST
+from lacuna.discovery.law.forms import is_of_several
 from lacuna.discovery.law.law_terms import BEYOND, DRY, EXPONENTS, Group, Shape, Variable, exponent, stribeck
 
 LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers
@@ -94,9 +95,9 @@ def _in_proportion(v: Variable, others: Sequence[Group]) -> list[Group]:
 
 
 def counts(found: Sequence[Variable], offered: Sequence[Group]) -> tuple[int, int]:
-    """Kinds of groups of one variable and of several."""
+    """Kinds of groups of one variable, and of several or of what was done since the start."""
     kinds = {group.kind for group in offered}
-    several = sum(sum(any(f"{v.local}_ref" in text for text in kind) for v in found) > 1 for kind in kinds)
+    several = sum(is_of_several(kind, found) for kind in kinds)
     return len(kinds) - several, several
 
 
@@ -115,9 +116,9 @@ def thresholds(low: float, high: float) -> tuple[list[Shape], list[Shape]]:
     """Levels that a scaled variable goes beyond, upwards and downwards, at quarters of its range; of that from zero,
     where it comes nearer to that than half of what it reaches."""
     begin, end = low if low < 0 or low > 1 / 2 else 0.0, high if high > 0 or high < -1 / 2 else 0.0
-    step = (end - begin) / 4
-    up = [Shape("q", "1", begin + k * step, begin, end, (), step) for k in (1, 2, 3)]
-    return up, [replace(q, start=-q.start, lower=-end, upper=-begin) for q in up]
+    step, reach = (end - begin) / 4, 0.99 * (end - begin)
+    up = [Shape("q", "1", begin + k * step, begin - reach, begin + reach, (), step) for k in (1, 2, 3)]
+    return up, [replace(q, start=-q.start, lower=-q.upper, upper=-q.lower) for q in up]
 
 
 def _yielding(v: Variable) -> list[Group]:
