@@ -115,7 +115,7 @@ static inline __attribute__((always_inline)) void write_state(int degree, const 
     a[j] = c[j * n];
   for (int k = 0; k < rows; k++) {
     double sum = a[degree];
-    for (int j = degree - 1; j >= 0; j--)
+    for (int j = degree; j-- > 0;)
       sum = sum * theta[k] + a[j];
     column[k] = sign * sum;
   }
