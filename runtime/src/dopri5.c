@@ -24,12 +24,15 @@ static const mdl_scheme tableau = {.stages = STAGES, .nodes = c, .weights = &a[0
 
 /* The stages, of n states, and the error. */
 static inline __attribute__((always_inline)) int stages(rt_session *s, rt_onestep *o, double h, int n) {
-  bool at_once = s->d->stages && !o->tangent;
-  int status = at_once ? rt_stages_at_once(s, o, h, &tableau) : 0;
+  int status = 0;
+  if (s->d->stages && !o->tangent) {
+    status = rt_stages_at_once(s, o, h, &tableau);
+  } else {
 #pragma GCC unroll 6
-  for (int j = 1; j < STAGES && !at_once; j++) {
-    status = rt_explicit_stage(s, o, h, n, j, c[j], a[j], j == STAGES - 1);
-    if (status) return status;
+    for (int j = 1; j < STAGES; j++) {
+      status = rt_explicit_stage(s, o, h, n, j, c[j], a[j], j == STAGES - 1);
+      if (status) return status;
+    }
   }
   const double *k = o->k;
   double *error = o->error;
