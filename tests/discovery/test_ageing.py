@@ -9,8 +9,11 @@ import numpy as np
 import pytest
 
 from lacuna.discovery.case.cases import load
+from lacuna.discovery.efforts.laws.variants import _aged
+from lacuna.discovery.efforts.places.sites import Site as Place
 from lacuna.discovery.explain import explain
-from lacuna.discovery.law.law_terms import evaluate
+from lacuna.discovery.law.law import Law, Site
+from lacuna.discovery.law.law_terms import Group, Shape, Variable, evaluate
 
 from .recorded import concealed, record
 
@@ -50,6 +53,7 @@ equation
   C*der(T) = P - G*(T - 293);
 end Wall;
 """
+LEVEL, SLOW = Shape("q", "1", 0.5, 0.0, 1.0), Shape("t", "s", 20.0, 1.0, 900.0)
 UNITS = {"q": "m3/s", "c0": "g/m3", "c": "g/m3", "h": "m", "out": "m3/s", "P": "W", "T": "K"}
 
 
@@ -126,3 +130,20 @@ equation
     assert text == "c_1*((x1/x1_ref) - warmth((x1/x1_ref), t_1))"
     assert found["t_1"] == pytest.approx(500, rel=0.05)
     assert found["c_1"] / found["T"] == pytest.approx(-4, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    "text", ["total({x}, 60)", "warmth({x}^2, {{t}})", "spent((abs({x} - {{q}}) + {x} - {{q}}), {{t}})"]
+)
+def test_variants_of_what_ages_keep_the_numbers_that_were_fitted(text: str) -> None:
+    variable = Variable("x1", "tank.h", "m", "state", 2.0)
+    place = Site(Place("parameter", "k"), "tank.h", "m2/s", (variable,))
+    told = text.format(x=variable.scaled)
+    group = Group((told,), tuple(s for s in (LEVEL, SLOW) if f"{{{s.name}}}" in told))
+    fitted = {"c_1": 3.0, **{f"{s.name}_1": 0.7 * s.start for s in group.shapes}}
+    found = _aged(Law(place, (group,)), fitted)
+    assert found
+    for other in found:
+        assert len({s.name for s in other.law.groups[0].shapes}) == len(other.law.groups[0].shapes)
+        assert other.start.items() >= fitted.items()
+        assert set(other.law.shapes()) <= other.start.keys()

@@ -51,14 +51,16 @@ def _aged(law: Law, values: dict[str, float]) -> list[Proposal]:
         text, time = group.texts[0], next((s for s in group.shapes if s.name == "t"), None)
         if not group.ages or len(group.texts) > 1:
             continue
-        own = [Group((f"{text}/(1 + {{q}}*abs({text}))",), (*group.shapes, Shape("q", "1", 0.3, 1e-3, 1e3)))]
+        own = []
+        if "{q}" not in text:
+            own.append(Group((f"{text}/(1 + {{q}}*abs({text}))",), (*group.shapes, Shape("q", "1", 0.3, 1e-3, 1e3))))
         if time is not None:
             kind = "warmth(" if "spent(" in text else "spent("
             own.append(replace(group, texts=(re.sub(r"\b(warmth|spent)\(", kind, text),)))
         for other in own:
             groups = (*law.groups[:n], other, *law.groups[n + 1 :])
-            start = {f"q_{n + 1}": s.start for s in other.shapes if s.name == "q"}
-            found.append(Proposal(Law(law.site, groups), values | start))
+            start = {f"{s.name}_{n + 1}": s.start for s in other.shapes}
+            found.append(Proposal(Law(law.site, groups), start | values))
     return found
 
 
