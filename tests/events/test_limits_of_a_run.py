@@ -132,7 +132,7 @@ def test_a_guard_that_jumps_right_behind_time_zero_is_found(tmp_path: Path, solv
     [
         (CLOCK, "interval", 6, "the interval of sample is positive"),
         ("model Late\n  parameter Real T = 1;\n  Real x = delay(time, T);\nend Late;\n", "T", 3,
-         "the time of delay is not negative"),
+         "the time of delay is positive"),
     ],
 )  # fmt: skip
 def test_a_parameter_that_no_operator_takes_is_told_with_its_line(
