@@ -115,7 +115,7 @@ class Group:
         """Its texts, but for how far apart what is late is kept: that follows how late it is."""
         return tuple(re.sub(r"\b(delay|onset)\(([^,]+, [^,)]+), [^,)]+\)", r"\1(\2)", text) for text in self.texts)
 
-    @property
+    @cached_property
     def ages(self) -> bool:
         """Whether it is of what was done since the start."""
         return any(AGES.search(text) for text in self.texts)

@@ -275,7 +275,6 @@ bool rt_clock_relations(rt_session *s);
 double rt_margin(const rt_session *s, int r, double g);
 int rt_guards_at(rt_session *s, double t, double *g);
 rt_status rt_find_state_event(rt_session *s);
-bool rt_step_short(rt_session *s);
 void rt_resume_step(rt_session *s);
 bool rt_may_dip(const rt_session *s, double end);
 int rt_find_dip(rt_session *s, double *inside);

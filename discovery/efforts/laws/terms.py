@@ -69,7 +69,7 @@ def _aged(
     does = [v for v in common if v.kind not in ("rate", "above") and not v.switch]
     every = ["1", *(g for v in does for g in done(v))]
     own = [v for v in found if v.kind == "through"]
-    near, far = does[: MOST // 3], does[MOST // 3 :]
+    near, far = does[: MOST // 3], does[MOST // 3 :]  # pairs with every one of all would be most of what is offered
     behind = [("", every), *((v.scaled, every) for v in near), *((v.scaled, done(v)) for v in far)]
     behind += [(factor, done(v)) for v in own for factor in ("", v.scaled)]
     result = [g for factor, what in behind for g in ageing(factor, what, interval, duration)]

@@ -69,12 +69,9 @@ def _one_for_two(search: Search, library: Library, progress: Progress) -> bool:
     """Whether one law elsewhere is taken in the place of two findings, where deviance and prices are less: what pulls
     a cage pulls its rope less what turns the sheave, and may have been found as that."""
     taken = {f.ranked.attachment.location for f in search.findings}
-    for pair in combinations(search.findings, 2):
-        amendment, base = search.amendment, search.fit
-        for old in pair:
-            others = [a for a in amendment.attachments if a is not old.ranked.attachment]
-            amendment = replace(amendment, attachments=others)
-            base = base and without(base, old.ranked, amendment)
+    for numbers in combinations(range(len(search.findings)), 2):
+        pair = [search.findings[k] for k in numbers]
+        amendment, base = _taken_out(search, *numbers)
         if base is None:
             continue
         both = " and ".join(f.ranked.attachment.location for f in pair)
@@ -89,7 +86,7 @@ def _one_for_two(search: Search, library: Library, progress: Progress) -> bool:
         present = search.fit.deviance(correlation) + paid_now - base.deviance(correlation)
         after = try_judge(law.machine, law.fit.point) if score(law, base, correlation) < present else None
         if after is not None:
-            others = [f for f in search.findings if not any(f is old for old in pair)]
+            others = [f for k, f in enumerate(search.findings) if k not in numbers]
             search.findings[:] = [*others, finding(law, base, pair[0].before, after)]
             search.take([*amendment.attachments, law.attachment], law.fit, after)
             return True
@@ -181,12 +178,14 @@ def _take_instead(search: Search, k: int, base: Fit, law: Candidate, margin: flo
     _exchange(search, k, base, Naming([ranked], []), ranked, margin)
 
 
-def _taken_out(search: Search, k: int) -> tuple[Amendment, Fit | None]:
-    """The amendment without finding k, and the present fit without it."""
-    old = search.findings[k].ranked
-    others = [a for a in search.amendment.attachments if a is not old.attachment]
-    amendment = replace(search.amendment, attachments=others)
-    return amendment, without(search.fit, old, amendment)
+def _taken_out(search: Search, *numbers: int) -> tuple[Amendment, Fit | None]:
+    """The amendment without some findings, and the present fit without them."""
+    amendment, fit = search.amendment, search.fit
+    for old in (search.findings[k] for k in numbers):
+        others = [a for a in amendment.attachments if a is not old.ranked.attachment]
+        amendment = replace(amendment, attachments=others)
+        fit = fit and without(fit, old.ranked, amendment)
+    return amendment, fit
 
 
 def _exchange(search: Search, k: int, base: Fit, naming: Naming, ranked: Ranked, margin: float) -> None:
