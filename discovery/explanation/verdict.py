@@ -28,11 +28,11 @@ from lacuna.discovery.fit.evidence import (
 )
 from lacuna.discovery.fit.fit import Fit, nrmse
 from lacuna.discovery.fit.solver.free import pulls
-from lacuna.discovery.fit.zeros import zeros_of
+from lacuna.discovery.fit.zeros import without_zeros, zeros_of
 from lacuna.discovery.law.law import law_at
 from lacuna.discovery.naming.comparison import TIE, Ranked, price, score
 from lacuna.discovery.naming.foretold import foretold
-from lacuna.discovery.naming.judge import Judgement
+from lacuna.discovery.naming.judge import Judgement, try_judge
 from lacuna.discovery.naming.name import AS_LIKELY, Finding
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.runtime import SimulationError
@@ -41,7 +41,20 @@ LEAST_TAKEN = 0.2  # of the error above noise on unseen recordings, that finding
 
 
 def conclude(result: Explanation) -> None:
-    """The verdict, from the findings, the whiteness of what is left and the believed parameters."""
+    """The verdict, from the findings, the whiteness of what is left and the believed parameters: as they are beside the
+    zeros of the sensors, which are what the diagnosis tells."""
+    _conclude(result)
+    if result.verdict == "undetermined":
+        return
+    if result.lead.direct:
+        machine, result.final = result.final.machine, without_zeros(result.final)
+        if not result.findings:
+            result.base, result.after = result.final, try_judge(machine, result.final.point) or result.after
+    if result.verdict == "consistent" and outside_belief(result.final):
+        result.verdict = "parameters"
+
+
+def _conclude(result: Explanation) -> None:
     if result.instead and not _equations_may_be_wrong(result) and _holds(result):
         result.verdict = "missing_physics"
         return
@@ -58,7 +71,7 @@ def conclude(result: Explanation) -> None:
         result.reason = result.reason or f"{where} is not noise, and no effect of the catalogue explains it"
         result.experiment = "record the same motion with the quantities that are not recorded now"
     else:
-        result.verdict = "parameters" if outside_belief(result.base) else "consistent"
+        result.verdict = "consistent"
 
 
 def _worst(result: Explanation) -> str:

@@ -6,7 +6,8 @@ by the same value again; so the fitted outputs are rounded, the levels anywhere,
 score counts where it is the larger. Where events make the sum of squares rough, sensitivities are taken with the
 shafts held near their recorded motion, and what the values move by when they are released is an error too: no
 derivative at the end of such a fit says how far it may be from the best one. So is what the solver's error moves, and
-what the digits that are not written of recorded inputs may have moved.
+what the digits that are not written of recorded inputs may have moved. Nor are the zeros of the sensors known better than
+a reading is: what they are, and how they drift, is a part of each error.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from lacuna.discovery.case.noise import is_coarse, sample_weights
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.lead import Lead
 from lacuna.discovery.fit.secants import input_shift, solver_shift, with_secants
+from lacuna.discovery.fit.zeros import beside_zeros
 
 UNHELD = 1e-13  # share of the largest eigenvalue, below which a direction is rounding's alone
 PART = 1e-3  # component of such a direction, from which a parameter is part of it
@@ -31,7 +33,8 @@ def standard_errors(fit: Fit, lead: Lead | None = None) -> dict[str, float]:
     """
     held = with_secants(lead.hold_fast(fit) if lead else fit)
     moved = held.estimate.values - fit.estimate.values
-    variance = np.diag(covariance(held)) + moved**2 + solver_shift(held) ** 2 + input_shift(held) ** 2
+    noisy = np.diag(covariance(beside_zeros(held)))[: len(moved)]  # those of the zeros come last
+    variance = noisy + moved**2 + solver_shift(held) ** 2 + input_shift(held) ** 2
     free = undetermined(held.estimate.normal) | ~narrowed(held)
     return {
         f.name: float("inf") if open_ else from_bound(held, k) if fit.estimate.at_bound(f.name) else float(np.sqrt(v))

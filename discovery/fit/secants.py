@@ -35,7 +35,7 @@ def with_secants(found: Fit) -> Fit:
     estimate: Estimate | None = found.estimate
     for _ in range(ROUNDS):
         estimate = estimate and problem and _with_secants(problem, estimate)
-    return found if estimate is None else replace(found, estimate=estimate)
+    return found if estimate is None else replace(found, estimate=estimate, zeroed=None)
 
 
 def _around(found: Fit, machine: Machine) -> tuple[Problem | None, list[np.ndarray]]:

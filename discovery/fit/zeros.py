@@ -13,7 +13,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.case.cases import Recording
+from lacuna.discovery.fit.fit import Fit, fit
 from lacuna.discovery.fit.solver.free import Free, clipped, pulls
 
 
@@ -37,6 +38,36 @@ def zeros_of(found: Fit) -> dict[str, float]:
     return {c: float(z) * n.std for (c, n), z in zip(found.noise.items(), values, strict=False)}
 
 
+def without_zeros(found: Fit) -> Fit:
+    """The fit anew, to its recordings less the zeros and the drifts that it tells beside itself; the same one where it
+    has no Jacobian, or does not run there. What is not recorded may else take a sensor's zero upon itself."""
+    beside = beside_zeros(found)
+    if beside is found:
+        return found
+    told = beside.estimate.point
+    recordings = [_less(r, found, told) for r in found.machine.case.fit]
+    machine = found.machine.amended(found.machine.amendment, replace(found.machine.case, fit=recordings))
+    again = fit(machine, recordings, found.noise, found.estimate.free, found.fixed, start=found.fixed | told,
+                known=found.sensitivities())  # fmt: skip
+    return again or found
+
+
+def _less(recording: Recording, found: Fit, told: dict[str, float]) -> Recording:
+    """The recording without the zeros of its columns, and without their drifts along it."""
+    along = np.linspace(-1.0, 1.0, len(recording.time))
+    errors = {c: told[_zero(c)] + told[_drift(c, recording.name)] * along for c in found.noise}
+    own = {c: recording.columns[c] - e * found.noise[c].std for c, e in errors.items()}
+    return replace(recording, columns={**recording.columns, **own})
+
+
+def _zero(column: str) -> str:
+    return f"zero of {column}"
+
+
+def _drift(column: str, recording: str) -> str:
+    return f"drift of {column} in {recording}"
+
+
 def _stepped(found: Fit) -> Fit:
     estimate, columns = found.estimate, _columns(found)
     belief = [(f.scale / f.sigma) ** 2 if f.sigma else 0.0 for f in estimate.free]
@@ -52,8 +83,8 @@ def _stepped(found: Fit) -> Fit:
     values[inside] += np.array([estimate.free[k].scale for k in inside]) * (shift @ zeros)
     moves = [j[:, inside] @ (shift @ zeros) - z @ zeros for j, z in zip(estimate.jacobian, columns, strict=True)]
     residuals = [r + m for r, m in zip(estimate.residuals, moves, strict=True)]
-    names = [f"zero of {c}" for c in found.noise]
-    names += [f"drift of {c} in {name}" for name in found.residuals for c in found.noise]
+    names = [_zero(c) for c in found.noise]
+    names += [_drift(c, name) for name in found.residuals for c in found.noise]
     free = [*estimate.free, *(Free(name, 0.0, 1.0, sigma=1.0) for name in names)]
     values = np.append(clipped(estimate.free, values), zeros)
     data_cost = float(sum(r @ r for r in residuals))

@@ -17,6 +17,7 @@ FREE = [Free("a", 1.0, 1.0, step=1e-6), Free("b", 1.0, 1.0, step=1e-6)]
 class End:
     estimate: Estimate
     machine: None = None
+    zeroed: None = None
 
 
 def outputs(values: dict[str, float], piece: int) -> np.ndarray:

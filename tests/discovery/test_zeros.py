@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from lacuna.discovery.case.cases import load
+from lacuna.discovery.explain import explain
 from lacuna.discovery.fit.solver.least_squares import Estimate
 from lacuna.discovery.fit.zeros import beside_zeros
+from tests.discovery.recorded import TANK, concealed, record
 from tests.discovery.test_left_out import BELIEF, LEVEL, NOISE, linear_fit
 
 ZERO = 0.7 * NOISE.std
@@ -65,3 +69,42 @@ def test_a_fit_without_a_jacobian_stays_as_it_is(data: tuple) -> None:
     bare = replace(plain, estimate=replace(estimate, jacobian=[]))
     assert isinstance(estimate, Estimate)
     assert beside_zeros(bare) is bare
+
+
+CASE = """model = "Tank.mo"
+[parameters]
+A = 0.01
+k = 3e-4
+[uncertainty]
+A = 0.05
+k = 0.003
+[signals.q]
+role = "input"
+variable = "q"
+unit = "m3/s"
+[signals.h]
+role = "output"
+variable = "h"
+unit = "m"
+noise_std = 0.005
+[recordings]
+fit = ["r0.csv", "r1.csv"]
+validate = ["r2.csv"]
+"""
+
+
+def test_a_parameter_that_would_only_stand_for_a_zero_is_as_it_was_believed(tmp_path: Path) -> None:
+    """The outlet is known to 0.3 per cent; the zero of the level, of 0.6 of its noise, would move it by four times
+    that."""
+    text = TANK.format(outflow="k*h")
+    folder, machine = concealed(tmp_path, "Tank", text, text, CASE)
+    rng, time = np.random.default_rng(3), np.linspace(0.0, 300.0, 1501)
+    for n, swing in enumerate((0.5, 0.8, 0.3)):
+        q = 6e-5 * (1 + swing * np.sin(2 * np.pi * time / (60.0 + 25 * n)))
+        error = 0.003 + 0.005 * rng.standard_normal(len(time))
+        record(folder / f"r{n}.csv", machine, time, {"q": q}, {"h": "h"}, {"h": error})
+    found = explain(load(folder))
+    assert found.verdict == "consistent"
+    errors = found.errors()
+    assert found.final.point["k"] == pytest.approx(3e-4, abs=3 * errors["k"])
+    assert 0.3 * 0.003 < errors["k"] / 3e-4 < 1.05 * 0.003  # the zero leaves hardly more than the belief
