@@ -6,8 +6,8 @@ by the same value again; so the fitted outputs are rounded, the levels anywhere,
 score counts where it is the larger. Where events make the sum of squares rough, sensitivities are taken with the
 shafts held near their recorded motion, and what the values move by when they are released is an error too: no
 derivative at the end of such a fit says how far it may be from the best one. So is what the solver's error moves, and
-what the digits that are not written of recorded inputs may have moved. Nor are the zeros of the sensors known better than
-a reading is: what they are, and how they drift, is a part of each error.
+what the digits that are not written of recorded inputs may have moved. Nor are the zeros of the sensors known better
+than a reading is: what they are, and how they drift, is a part of each error.
 """
 
 from __future__ import annotations
