@@ -42,7 +42,7 @@ class Diagnostic(Exception):
     """One finding about a model: `code` such as "R012", a sentence, where, and what to do about it.
 
     `notes` are further places that belong to it, each with its own remark (an earlier declaration, the
-    equations of a singular subset).
+    equations of a singular subset). `about` names the variables that are in the way, where a caller may take them away.
     """
 
     user_error = True
@@ -55,6 +55,7 @@ class Diagnostic(Exception):
     severity: str = "error"
     others: list[Diagnostic] = field(default_factory=list)  # further findings, independent of this one
     cut: bool = False  # there may be more than the others: nobody looked on
+    about: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         parts = [f"{self.span}: " if self.span else "", f"{self.severity}[{self.code}]: {self.message}"]

@@ -8,10 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lacuna.codegen.compile import compile_model
+from lacuna.codegen.compile import compile_model, translate
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.searched import believed_structure
+from lacuna.discovery.efforts.places import opened as opening
 from lacuna.discovery.efforts.places.opened import RIGID, opened
 from lacuna.discovery.explain import explain, write_amended
 from lacuna.discovery.law.law_terms import evaluate
@@ -175,6 +176,24 @@ def test_equations_in_which_a_parameter_stands_are_open_and_those_that_only_join
     vary = {s.label: len(s.parts) for s in door.sites if s.kind == "parameter"}
     assert vary == {"winding.R": 1, "winding.L": 1, "coil.k": 2, "cone.m": 1, "suspension.c": 1, "suspension.d": 1}
     assert dict(door.closed)["coil.flange to cone.a"] == RIGID
+
+
+def test_to_leave_out_what_is_rigid_takes_no_more_translations_than_there_is_of_it(
+    woofer: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Places of a machine of many parts are looked at in one model, not each by itself."""
+    case, translated = load(woofer()), []
+    library = case.library()
+
+    def counted(*args: object, **kwargs: object) -> object:
+        translated.append(args)
+        return translate(*args, **kwargs)
+
+    monkeypatch.setattr(opening, "translate", counted)
+    door = opened(case, Amendment(believed_structure(case, library)), library, [])
+    rigid = [label for label, why in door.closed if why == RIGID]
+    believed_and_whole = 2
+    assert rigid and len(translated) <= believed_and_whole + len(rigid)
 
 
 def test_a_force_factor_that_falls_with_the_way_is_one_law_of_one_parameter(

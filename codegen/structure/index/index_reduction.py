@@ -97,8 +97,14 @@ class TimeDerivative:
                 self._row.source.span,
                 "let the input act through an inertia or a filter, or add its derivative as an input",
                 [(v.span, f"{v.name} is declared here")],
+                about=self._inputs(),
             )  # fmt: skip
         return der(n) if v.variability == flat.CONTINUOUS else ZERO
+
+    def _inputs(self) -> tuple[str, ...]:
+        """Those of the row."""
+        read = [self._model.variables[base_name(n)] for n in self._row.leaves if n.op in ("var", "der")]
+        return tuple(v.name for v in read if v.causality == "input")
 
 
 def _still(rows: list[Row]) -> set[Expr]:

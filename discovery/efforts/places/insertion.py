@@ -60,12 +60,16 @@ class States:
         return lines + [line for speed in self.sticking for line in _sticks(speed)]
 
 
+def effort_at(number: int) -> str:
+    """The model's input that acts as effort at a site."""
+    return f"{OWN}site_{number}_effort"
+
+
 def probe(site: Site, number: int) -> tuple[Attachment, str]:
     """(attachment, name of the model's input) of an input that acts as effort at a site."""
-    own = f"{OWN}site_{number}"
+    own, name = f"{OWN}site_{number}", effort_at(number)
     effect = Effect("unknown", own.title(), "Missing effort", "site", ())
     source = component(site, effect.class_path, "Missing effort", (("u", "", ""),), [], "u")
-    name = f"{own}_effort"
     return Attachment(effect, own, site.label, site=site, signals=(("u", name),), definition=source), name
 
 

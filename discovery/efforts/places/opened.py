@@ -32,7 +32,7 @@ from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.linear import Linear
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.places.families import families
-from lacuna.discovery.efforts.places.insertion import probe
+from lacuna.discovery.efforts.places.insertion import effort_at, probe
 from lacuna.discovery.efforts.places.place import (
     ORDER,
     Place,
@@ -46,6 +46,7 @@ from lacuna.discovery.efforts.places.place import (
 from lacuna.discovery.efforts.places.reading import read
 from lacuna.discovery.efforts.places.sites import Site, exchanges, renames, varying
 from lacuna.discovery.fit.machine import Machine, richer
+from lacuna.discovery.fit.solver.time_limit import check
 from lacuna.units import Unit
 
 RENAMES = "it only gives a name to what is recorded: an error there is its sensor's"
@@ -278,17 +279,30 @@ def _read(believed: Prepared, names: Iterable[str]) -> dict[str, int]:
 
 
 def _openable(case: Case, amendment: Amendment, sites: list[Site], closed: list[tuple[str, str]]) -> list[Site]:
-    """Sites where an input can act, tried together and, where that is no model, in halves; the others are `closed`."""
+    """Sites where an input can act, tried together, without those that a refusal names, and, where it names none and
+    that is no model, in halves; the others are `closed`."""
+    check()
     try:
         translate(str(write_source(_with_probes(amendment, sites))), search_path=case.search_path, units=UNITS)
     except (Diagnostic, CompilerError) as reason:
+        rigid = _named_in(reason, len(sites))
+        closed += [(sites[k].label, RIGID) for k in sorted(rigid)]
+        left = [s for k, s in enumerate(sites) if k not in rigid]
+        if rigid:
+            return _openable(case, amendment, left, closed) if left else []
         if len(sites) == 1:
-            rigid = isinstance(reason, Diagnostic) and reason.code == "S004"
-            closed.append((sites[0].label, RIGID if rigid else str(reason).split(": error", 1)[-1].split("\n")[0]))
+            closed.append((sites[0].label, str(reason).split(": error", 1)[-1].split("\n")[0]))
             return []
         halves = (sites[: len(sites) // 2], sites[len(sites) // 2 :])
         return [site for half in halves for site in _openable(case, amendment, half, closed)]
     return sites
+
+
+def _named_in(reason: Diagnostic | CompilerError, count: int) -> set[int]:
+    """Numbers of the sites of `count` whose inputs would have to be differentiated."""
+    if not isinstance(reason, Diagnostic) or reason.code != "S004":
+        return set()
+    return {k for k in range(count) if effort_at(k) in reason.about}
 
 
 def _with_probes(amendment: Amendment, sites: list[Site]) -> Amendment:
