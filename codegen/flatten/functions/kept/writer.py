@@ -163,8 +163,8 @@ class Writer:
         once, left = ex.const(1), not rest and _is_left(item.body)
         result += [flat.For(self._fresh(first.name), once, once, once, rounds, item.span)] if left else rounds
 
-    def _looped(self, e: ast.Comprehension, begun: Begun, scope: Scope) -> Value:
-        return looped(e, begun, scope, self.function.name, self._fresh)
+    def _looped(self, e: ast.Comprehension, begun: Begun, scope: Scope, required: list[Expr]) -> Value:
+        return looped(e, begun, scope, required, self.function, self._fresh)
 
     def _fresh(self, stem: str) -> str:
         """A name that no variable can have."""
