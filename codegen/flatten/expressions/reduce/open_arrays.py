@@ -87,7 +87,11 @@ class Elements:
             return bounds, lambda *i: replace(e, operand=at(*i))
         if isinstance(e, ast.Binary):
             return self._binary(e)
+        if isinstance(e, ast.Comprehension):
+            return self._comprehension(e)
         name = str(e.function) if isinstance(e, ast.Call) else ""
+        if name in ("fill", "zeros", "ones") and not e.named:
+            return self._filled(e, name)
         if name == "transpose" and len(e.args) == 1:
             bounds, at = self._of(e.args[0])
             return (bounds[::-1], lambda i, j: at(j, i)) if len(bounds) == 2 else None
@@ -122,6 +126,24 @@ class Elements:
             return replace(e, subscripts=tuple(subscripts))
 
         return tuple(bounds), element
+
+    def _filled(self, e: ast.Call, name: str) -> Open:
+        value = e.args[0] if name == "fill" else ast.Literal(e.span, int(name == "ones"))
+        sizes = [lower_scalar(a, self.scope, INTEGER) for a in e.args[name == "fill" :]]
+        return tuple((ex.const(1), n) for n in sizes), lambda *i: value
+
+    def _comprehension(self, e: ast.Comprehension) -> Open | None:
+        """`{e for i in a:b}`: the element at k is the one of `{e for i in k:k}`."""
+        written = e.iterators[0].range
+        if len(e.iterators) > 1 or not isinstance(written, ast.Range) or written.step is not None:
+            return None
+        low, high = (lower_scalar(b, self.scope, INTEGER) for b in (written.first, written.last))
+
+        def element(k: ast.Expression) -> ast.Expression:
+            iterator = replace(e.iterators[0], range=ast.Range(e.span, k, None, k))
+            return ast.Part(e.span, replace(e, iterators=[iterator]), (ast.Literal(e.span, 1),))
+
+        return ((low, high),), element
 
     def _with_all(self, e: ast.Ref) -> ast.Ref:
         """With a subscript for each dimension where there are any: `A[1:n]` is `A[1:n, :]`."""
@@ -207,3 +229,15 @@ class Elements:
             sizes = " and ".join(ex.to_text(c) for c in counts)
             raise Diagnostic("R042", f"{what} of {sizes} elements", span, "both need the same size")
         self.required.append(same)
+
+
+class Assigned(Elements):
+    """Those of a part of an array and of its value, which have the same size."""
+
+    def __init__(self, target: ast.Ref, value: ast.Expression, scope: Scope) -> None:
+        super().__init__(target, scope)
+        given = self._of(value)
+        if len(given[0]) != len(self.bounds):
+            message = f"{target} has {len(self.bounds)} dimensions, its value {len(given[0])}"
+            raise Diagnostic("R042", message, target.span, "both need the same size")
+        self.both = self._aligned([(self.bounds, self._at), given], target.span, ":=")[1]

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from lacuna.codegen import flat
+from lacuna.codegen.errors import Span
 from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
 from lacuna.codegen.flatten.names.elements import local_value
@@ -30,6 +31,11 @@ def bounds(e: ast.Range, scope: Scope) -> tuple[Expr, Expr, Expr]:
     """The first value, the step and the last value of a range of Integers."""
     low, high = (lower_scalar(b, scope, INTEGER) for b in (e.first, e.last))
     return low, lower_scalar(e.step, scope, INTEGER) if e.step else ex.const(1), high
+
+
+def sizes_fit(required: Sequence[Expr], span: Span) -> list[flat.Statement]:
+    """What has to hold of sizes that vary."""
+    return [flat.Assert(c, "the sizes of arrays differ", span) for c in required]
 
 
 def looped(
@@ -60,9 +66,7 @@ class _Loop:
         body = self._over(self.e.iterators, scope)
         if self.value is None:
             raise AtRunTime("an iterator", self.e.span)  # one of them runs over nothing
-        message = "the sizes of arrays differ"
-        checks = [flat.Assert(c, message, self.e.span) for c in self.required]
-        body = [*checks, flat.Assign(RESULT, self.start, self.e.span), *body]
+        body = [*sizes_fit(self.required, self.e.span), flat.Assign(RESULT, self.start, self.e.span), *body]
         names = [n for e in expressions(body) for n in ex.walk(e) if n.op == "var" and n.value not in self.own]
         inputs = {str(n.value): self._whole(n) for n in names}
         shapes = {n: shape_of(v) for n, v in inputs.items()} | {RESULT: ()}
