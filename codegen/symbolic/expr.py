@@ -68,6 +68,7 @@ class Table:
         self.leaves: dict[Expr, frozenset[Expr]] = {}
         self.nonlinear: dict[Expr, frozenset[Expr]] = {}
         self.plain: dict[Expr, Expr] = {}
+        self.measured: dict[Expr, type[float]] = {}
         self.holding: dict[Callable[[Expr], bool], dict[Expr, bool]] = {}
 
 
@@ -218,7 +219,7 @@ def mul(a: Expr, b: Expr) -> Expr:
 
 def div(a: Expr, b: Expr) -> Expr:
     if is_const(a) and is_const(b) and b.value != 0:
-        return _real(a.value / b.value)
+        return const(a.value / b.value)
     if is_const(a, 0) and not is_const(b, 0):
         return ZERO
     if is_const(b, 1):
@@ -237,9 +238,9 @@ def power(a: Expr, b: Expr) -> Expr:
         return ONE
     if is_const(a) and is_const(b):
         try:
-            value = float(a.value) ** float(b.value)
+            value = a.value ** float(b.value)
             if isinstance(value, float) and math.isfinite(value):
-                return _real(value)
+                return const(value)
         except (OverflowError, ZeroDivisionError):
             pass
     return node("^", (a, b))
