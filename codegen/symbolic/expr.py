@@ -40,6 +40,8 @@ BUILTINS: dict[str, int] = {
     "floor": 1, "ceil": 1, "integer": 1, "mod": 2, "rem": 2, "div": 2,
 }  # fmt: skip
 
+EVENTFUL = ("abs", "sign", "floor", "ceil", "integer", "mod", "rem", "div")
+
 
 class Expr:
     """One node; immutable. `type` is Real, Integer or Boolean (an enumeration is an Integer)."""
@@ -153,10 +155,19 @@ def _beside(neutral: Expr, e: Expr) -> Expr:
 
 
 def as_real(e: Expr) -> Expr:
-    """An Integer where a Real is meant: what is left of n*1.0 is one, too."""
+    """An Integer where a Real is meant: what is left of n*1.0 is one, too. What happens in it makes events still."""
     if e.type != INTEGER:
         return e
-    return _real(e.value) if e.op == "const" else special("noEvent", e, type=REAL)
+    if e.op == "const":
+        return _real(e.value)
+    if e.op == "if":
+        return if_else(e.args[0], as_real(e.args[1]), as_real(e.args[2]))
+    return node("+", (e, ZERO)) if any(map(is_eventful, walk(e))) else special("noEvent", e, type=REAL)
+
+
+def is_eventful(e: Expr) -> bool:
+    """Whether it makes events, outside of noEvent."""
+    return e.op in RELATIONS or e.op in ("min", "max") or (e.op == "call" and e.value in EVENTFUL)
 
 
 def add(a: Expr, b: Expr) -> Expr:
