@@ -100,6 +100,9 @@ def _constant(text: str) -> float | None:
 def value(name: str, text: str) -> float:
     """True or false, which are no numbers of the model, or a real number."""
     words = {"true": True, "false": False}
+    if text[0] in "{[" and name:
+        one = f"-p '{name}[1]=...', of a matrix -p '{name}[1,2]=...'"
+        raise lacuna.UserError(f"{name}={text}: an array is given by its elements, one by one: {one}")
     return words[text.lower()] if text.lower() in words else number(name, text, " nor true/false")
 
 

@@ -31,7 +31,8 @@ _CALLBACKS = (
     "starts", "parameters", "samples", "initial_system", "rhs", "residual", "jacobian", "roots", "time_relations",
     "next_time_event", "event", "nominals", "divisions",
 )  # fmt: skip
-_DELAYS = {"delays": "mdl_delays", "delay_times": "mdl_delay_times", "delay_input": "mdl_delay_input"}
+_DELAYS = {"delays": "mdl_delays", "delay_times": "mdl_delay_times", "delay_input": "mdl_delay_input",
+           "delay_equation": "mdl_delay_equation"}  # fmt: skip
 _TRANSPORTS = {key: f"mdl_{key}" for key in ("transports", "transport_initial", "transport_input", "transport_points")}
 _SELDOM = ("branches", "lasting", "delay", "transport")
 _COUNTED = ("variables", "equations", "asserts", "messages", "z", "computed", "divisions", *_SELDOM)
@@ -128,6 +129,7 @@ def _files(prepared: Prepared) -> list[tuple[str, str]]:
 
 def _arrays(tables: Tables, checks: Checks, messages: list[str]) -> tuple[list[str], dict[str, int]]:
     computed, divided = checks.computed(), checks.division_equations()  # which may add to the equations
+    delayed = checks.delay_equations()
     first, variables = checks.equation_variables()
     contents = {
         "variables": ("mdl_variable mdl_variables", tables.variables()),
@@ -151,6 +153,7 @@ def _arrays(tables: Tables, checks: Checks, messages: list[str]) -> tuple[list[s
         "affine": ("unsigned char mdl_affine_guards", tables.affine_guards()),
         "least": ("unsigned char mdl_least_sizes", least_sizes(checks.prepared)),
         "delay": ("int mdl_delay_input", checks.delay_inputs()),
+        "delayed": ("int mdl_delay_equation", delayed),
         "transport": ("int mdl_transport_points", checks.transport_points()),
         "marks": ("int mdl_transport_input", checks.transport_inputs()),
     }

@@ -5,11 +5,12 @@ from __future__ import annotations
 from lacuna.codegen.flatten.connections.overconstrained import STATEMENTS, is_root, rooted
 from lacuna.codegen.flatten.connections.streams import actual_stream, in_stream
 from lacuna.codegen.flatten.connections.structure import cardinality
-from lacuna.codegen.flatten.expressions import arrays, lower, operators, reductions
+from lacuna.codegen.flatten.expressions import arrays, lower, operators
+from lacuna.codegen.flatten.expressions.reduce import reductions
 from lacuna.codegen.flatten.functions import calls, overloads
 from lacuna.codegen.flatten.functions.kept.code import run
 from lacuna.codegen.flatten.names.context import Lowering
-from lacuna.codegen.flatten.references import iterators
+from lacuna.codegen.flatten.references import iterators, open_ranges
 from lacuna.codegen.flatten.references.references import read, read_part
 from lacuna.codegen.syntax import ast
 
@@ -22,7 +23,14 @@ _OF_CONNECTIONS = {
     "rooted": rooted,
 }
 LOWERING = Lowering(
-    nodes={**lower.OPERATORS, ast.Ref: read, ast.Part: read_part, ast.Call: calls.lower_call, **iterators.RANGES},
+    nodes={
+        **lower.OPERATORS,
+        ast.Binary: reductions.binary,
+        ast.Ref: read,
+        ast.Part: read_part,
+        ast.Call: calls.lower_call,
+        **iterators.RANGES,
+    },
     functions={
         **_OF_CONNECTIONS,
         **arrays.FUNCTIONS,
@@ -36,4 +44,5 @@ LOWERING = Lowering(
     construct=overloads.construct,
     text=overloads.text_by_operator,
     run=run,
+    expanded=open_ranges.expanded,
 )

@@ -10,9 +10,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
-from lacuna.codegen.symbolic.expr import REAL, Expr, const, is_const, node, substitute, table, transform
+from lacuna.codegen.symbolic.expr import (
+    REAL,
+    Expr,
+    add,
+    const,
+    div,
+    is_const,
+    mul,
+    neg,
+    node,
+    power,
+    sub,
+    substitute,
+    table,
+    transform,
+)
 
 OP = "annotated"
 
@@ -66,30 +80,68 @@ def in_units(value: Expr, meant: Expr) -> Expr:
 
 
 class Measured(float):
-    """A number that a function gave which declares its unit: a constant to every pass, with a unit for their check."""
+    """A number that a function gave which declares its unit, or that was computed from such: a constant to every pass.
+    The check of units looks at `meant`, the same over names that have units."""
 
-    unit, source = "", ""
+    meant: Expr
+
+    def __add__(self, other: float) -> float:
+        return _computed(add, float(self) + float(other), self, other)
+
+    def __radd__(self, other: float) -> float:
+        return _computed(add, float(other) + float(self), other, self)
+
+    def __sub__(self, other: float) -> float:
+        return _computed(sub, float(self) - float(other), self, other)
+
+    def __rsub__(self, other: float) -> float:
+        return _computed(sub, float(other) - float(self), other, self)
+
+    def __mul__(self, other: float) -> float:
+        return _computed(mul, float(self) * float(other), self, other)
+
+    def __rmul__(self, other: float) -> float:
+        return _computed(mul, float(other) * float(self), other, self)
+
+    def __truediv__(self, other: float) -> float:
+        return _computed(div, float(self) / float(other), self, other)
+
+    def __rtruediv__(self, other: float) -> float:
+        return _computed(div, float(other) / float(self), other, self)
+
+    def __pow__(self, other: float) -> float:
+        value = float(self) ** float(other)
+        return value if isinstance(value, complex) else _computed(power, value, self, other)
+
+    def __neg__(self) -> float:
+        return _measured(neg(self.meant))(-float(self))
 
 
-@lru_cache(maxsize=1024)
-def _measured(unit: str, source: str) -> type[Measured]:
-    """A class for each unit: it keeps their constants apart in the table of expressions."""
-    return type("Measured", (Measured,), {"unit": unit, "source": source})
+def _computed(build: Callable[[Expr, Expr], Expr], value: float, a: float, b: float) -> float:
+    return _measured(build(*(x.meant if isinstance(x, Measured) else const(x) for x in (a, b))))(value)
 
 
-def measured(value: Expr, unit: str, source: str) -> Expr:
-    """A constant Real with its unit, and what gave it."""
-    return const(_measured(unit, source)(value.value))
+def _measured(meant: Expr) -> type[Measured]:
+    """A class for each meaning: it keeps their constants apart in the table of expressions."""
+    kinds = table().measured
+    if meant not in kinds:
+        kinds[meant] = type("Measured", (Measured,), {"meant": meant})
+    return kinds[meant]
 
 
-def unit_of_number(e: Expr) -> str:
-    """The unit that a constant has, "" for a mere number."""
-    return e.value.unit if e.op == "const" and isinstance(e.value, Measured) else ""
+def measured(value: Expr, meant: Expr) -> Expr:
+    """A constant Real of which the check of units looks at `meant`."""
+    return const(_measured(meant)(value.value))
+
+
+def meant_by(e: Expr) -> Expr | None:
+    """What a constant with a unit stands for; None for a mere number."""
+    return e.value.meant if e.op == "const" and isinstance(e.value, Measured) else None
 
 
 def number(e: Expr) -> Expr:
     """A constant as a mere number; any other expression as it is."""
-    return const(float(e.value)) if unit_of_number(e) else e
+    return const(float(e.value)) if meant_by(e) is not None else e
 
 
 def tells_units(e: Expr) -> bool:
@@ -100,7 +152,7 @@ def unmarked(e: Expr) -> Expr:
     """`e` without what tells the units of numbers."""
 
     def without(n: Expr) -> Expr | None:
-        return unmarked(n.args[0]) if tells_units(n) else number(n) if unit_of_number(n) else None
+        return unmarked(n.args[0]) if tells_units(n) else number(n) if meant_by(n) is not None else None
 
     return transform(e, without, {})
 
@@ -110,6 +162,6 @@ def plain(e: Expr, memo: dict[Expr, Expr] | None = None) -> Expr:
     memo = table().plain if memo is None else memo
 
     def value(n: Expr) -> Expr | None:
-        return plain(n.args[0], memo) if n.op == OP else number(n) if unit_of_number(n) else None
+        return plain(n.args[0], memo) if n.op == OP else number(n) if meant_by(n) is not None else None
 
     return transform(e, value, memo)

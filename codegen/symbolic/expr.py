@@ -40,6 +40,8 @@ BUILTINS: dict[str, int] = {
     "floor": 1, "ceil": 1, "integer": 1, "mod": 2, "rem": 2, "div": 2,
 }  # fmt: skip
 
+EVENTFUL = ("abs", "sign", "floor", "ceil", "integer", "mod", "rem", "div")
+
 
 class Expr:
     """One node; immutable. `type` is Real, Integer or Boolean (an enumeration is an Integer)."""
@@ -68,6 +70,7 @@ class Table:
         self.leaves: dict[Expr, frozenset[Expr]] = {}
         self.nonlinear: dict[Expr, frozenset[Expr]] = {}
         self.plain: dict[Expr, Expr] = {}
+        self.measured: dict[Expr, type[float]] = {}
         self.holding: dict[Callable[[Expr], bool], dict[Expr, bool]] = {}
 
 
@@ -152,10 +155,19 @@ def _beside(neutral: Expr, e: Expr) -> Expr:
 
 
 def as_real(e: Expr) -> Expr:
-    """An Integer where a Real is meant: what is left of n*1.0 is one, too."""
+    """An Integer where a Real is meant: what is left of n*1.0 is one, too. What happens in it makes events still."""
     if e.type != INTEGER:
         return e
-    return _real(e.value) if e.op == "const" else special("noEvent", e, type=REAL)
+    if e.op == "const":
+        return _real(e.value)
+    if e.op == "if":
+        return if_else(e.args[0], as_real(e.args[1]), as_real(e.args[2]))
+    return node("+", (e, ZERO)) if any(map(is_eventful, walk(e))) else special("noEvent", e, type=REAL)
+
+
+def is_eventful(e: Expr) -> bool:
+    """Whether it makes events, outside of noEvent."""
+    return e.op in RELATIONS or e.op in ("min", "max") or (e.op == "call" and e.value in EVENTFUL)
 
 
 def add(a: Expr, b: Expr) -> Expr:
@@ -218,7 +230,7 @@ def mul(a: Expr, b: Expr) -> Expr:
 
 def div(a: Expr, b: Expr) -> Expr:
     if is_const(a) and is_const(b) and b.value != 0:
-        return _real(a.value / b.value)
+        return const(a.value / b.value)
     if is_const(a, 0) and not is_const(b, 0):
         return ZERO
     if is_const(b, 1):
@@ -237,9 +249,9 @@ def power(a: Expr, b: Expr) -> Expr:
         return ONE
     if is_const(a) and is_const(b):
         try:
-            value = float(a.value) ** float(b.value)
+            value = a.value ** float(b.value)
             if isinstance(value, float) and math.isfinite(value):
-                return _real(value)
+                return const(value)
         except (OverflowError, ZeroDivisionError):
             pass
     return node("^", (a, b))

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 from lacuna.codegen import flat
-from lacuna.codegen.symbolic.annotated import OP, DerivativeRule, plain, tells_units, unit_of_number, unmarked
+from lacuna.codegen.symbolic.annotated import OP, DerivativeRule, meant_by, plain, tells_units, unmarked
 from lacuna.codegen.symbolic.expr import FALSE, TRUE, Expr, neg, transform
 
 Rule = Callable[[Expr], Expr | None]
@@ -110,8 +110,8 @@ class Rewriter:
 
 def without_marks(model: flat.FlatModel) -> flat.FlatModel:
     """The model without what tells the units of numbers, and derivatives outside of equations: nobody asks for them."""
-    settled = Rewriter(lambda n: plain(n) if n.op == OP or unit_of_number(n) else None).model(model)
-    equations = Rewriter(lambda n: unmarked(n) if tells_units(n) or unit_of_number(n) else None)
+    settled = Rewriter(lambda n: plain(n) if n.op == OP or meant_by(n) is not None else None).model(model)
+    equations = Rewriter(lambda n: unmarked(n) if tells_units(n) or meant_by(n) is not None else None)
     return replace(settled, equations=[equations.equation(e) for e in model.equations], derivatives=model.derivatives)
 
 

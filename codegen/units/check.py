@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.symbolic.annotated import unit_of_number
+from lacuna.codegen.symbolic.annotated import meant_by
 from lacuna.codegen.symbolic.expr import REAL, Expr, to_text, var
 from lacuna.codegen.units.inference import UNKNOWN, Finding, UnitError, UnitInference, of_variable
 from lacuna.codegen.units.undeclared import Undeclared
@@ -225,5 +225,5 @@ class _Check:
         pairs = [(e.lhs, e.rhs) for e in _as_written(self.model.equations) if not e.branches]
         bound = ((v.name, v.binding) for v in self.model.variables.values() if v.binding is not None)
         return pairs + [
-            (var(n), b) for n, b in bound if self.units[n] == UNKNOWN and (b.op != "const" or unit_of_number(b))
+            (var(n), b) for n, b in bound if self.units[n] == UNKNOWN and (b.op != "const" or meant_by(b) is not None)
         ]

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 
-from lacuna.codegen.symbolic.annotated import tells_units, unit_of_number
+from lacuna.codegen.symbolic.annotated import meant_by, tells_units
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, RELATIONS, Expr, to_text
 from lacuna.units import DIMENSIONLESS, Unit, format_unit, parse_unit
 
@@ -34,7 +34,7 @@ class UnitError(Exception):
 
 
 def short(e: Expr) -> str:
-    text = e.value.source if unit_of_number(e) else to_text(e)
+    text = to_text(meant_by(e) or e)
     return text if len(text) <= 70 else text[:67] + "..."
 
 
@@ -56,7 +56,8 @@ class UnitInference:
     def _infer(self, e: Expr) -> Finding:
         op = e.op
         if op == "const":
-            return parse_unit(unit) if (unit := unit_of_number(e)) else LITERAL
+            meant = meant_by(e)
+            return LITERAL if meant is None else self.of(meant)
         if op == "var":
             return self._variable(e)
         if op == "time":
@@ -197,13 +198,15 @@ class UnitInference:
             return any(map(self.has_written_factor, e.args[1:]))
         if tells_units(e):
             return self.has_written_factor(e.value)
+        if (meant := meant_by(e)) is not None:
+            return self.has_written_factor(meant)
         if e.op in ("annotated", "^") or (e.op == "call" and str(e.value) in ("sqrt", "abs")):
             return self.has_written_factor(e.args[0])
         inside = e.op in ("+", "-", "neg", "min", "max", "noEvent", "pre") and any(map(self.has_written_factor, e.args))
         return inside or e.op == "time"
 
     def _is_scale(self, e: Expr) -> bool:
-        return (e.op == "const" and abs(e.value) != 1 and not unit_of_number(e)) or (
+        return (e.op == "const" and abs(e.value) != 1 and meant_by(e) is None) or (
             e.op == "var" and self._variable(e) == LITERAL
         )
 

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 26
+#define MDL_ABI_VERSION 27
 
 enum { MDL_FOLLOWS = 1, MDL_ARRIVAL = 2 }; /* bits of events_follow */
 
@@ -249,9 +249,9 @@ typedef struct mdl_descriptor {
   int (*phases)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *phase);
 
   /* delay(e, T): input `delay_input[k]` is what value[k] was seconds[k] ago. `delays` gives e at a complete point,
-   * `delay_times` the times T, which only parameters decide. */
+   * `delay_times` the times T, which only parameters decide; equation `delay_equation[k]` is where it stands. */
   int n_delay;
-  const int *delay_input; /* [n_delay] */
+  const int *delay_input, *delay_equation; /* [n_delay] */
   int (*delay_times)(const mdl_data *m, double *seconds);
   int (*delays)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *value);
 

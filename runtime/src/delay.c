@@ -45,7 +45,7 @@ rt_status rt_delays_begin(rt_session *s) {
     d->past[k].n = d->past[k].ahead = 0;
     d->past[k].cursor = d->past[k].near = -1;
     if (!(d->seconds[k] >= 16 * rt_time_resolution(s)) || d->seconds[k] < s->options.step)
-      return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL,
+      return rt_fail(s, RT_ARGUMENT, s->start, -1, s->d->equations + s->d->delay_equation[k],
                      "delay() number %d is by %.9g s, which is no time or less than a step", k + 1, d->seconds[k]);
   }
   return RT_OK;

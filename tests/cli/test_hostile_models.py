@@ -283,3 +283,10 @@ def test_sums_of_a_model_beyond_2_53_decide_nothing(tmp_path: Path) -> None:
     text = "model M Integer q = if time < 0.5 then 3 else 4000000000000000; Integer a = mod(q + q + q + 1, 2); end M;"
     status, said = simulated(tmp_path, text)
     assert (status, "2^53" in said) == (1, True), said
+
+
+def test_an_array_is_given_element_by_element(tmp_path: Path) -> None:
+    text = "model M parameter Real v[2] = {3, 4}; Real y = v[1]*time; end M;"
+    status, said = simulated(tmp_path, text, "-p", "v={1,2}")
+    assert (status, "-p 'v[1]=...'" in said) == (1, True), said
+    assert simulated(tmp_path, text, "-p", "v[1]=1")[0] == 0

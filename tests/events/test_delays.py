@@ -137,3 +137,9 @@ def test_by_no_time_it_is_what_is_delayed(tmp_path: Path) -> None:
 def test_no_sensitivities_through_a_delay(tmp_path: Path) -> None:
     with pytest.raises(Diagnostic, match="sensitivities of a model with delay"):
         compiled(tmp_path, LAG, sensitivities=True)
+
+
+def test_a_delay_that_is_no_time_is_named_with_its_line(tmp_path: Path) -> None:
+    result = simulated(tmp_path, LAG.replace("0.25", "1e-18"))
+    assert not result.complete
+    assert ":5: delay() number 1 is by 1e-18 s, which is no time" in str(result.failure)

@@ -156,6 +156,7 @@ template <class M> struct Generated {
                                      nullptr,
                                      nullptr,
                                      nullptr,
+                                     nullptr,
                                      0,
                                      nullptr,
                                      nullptr,

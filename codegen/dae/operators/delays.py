@@ -12,9 +12,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from lacuna.codegen import flat
-from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.structure.constants import is_parametric
-from lacuna.codegen.symbolic.expr import Expr, relation, to_text, var
+from lacuna.codegen.symbolic.expr import Expr, relation, to_text, var, walk
+from lacuna.codegen.symbolic.leaves import holds
 from lacuna.codegen.symbolic.rewrite import Rewriter
 
 
@@ -25,11 +26,12 @@ class Delay:
     input: str
     past: str
     seconds: Expr
+    source: flat.Equation  # where it stands
 
 
 def split(model: flat.FlatModel) -> tuple[flat.FlatModel, list[Delay]]:
     """The model with inputs in the place of delays."""
-    splitter = _Splitter(model)
+    splitter = _Splitter(model, _places(model))
     rewriter = Rewriter(splitter.replacement)
     splitter.inner = rewriter.expression
     rewritten = rewriter.model(model)
@@ -45,9 +47,19 @@ def split(model: flat.FlatModel) -> tuple[flat.FlatModel, list[Delay]]:
     ), splitter.delays
 
 
+def _places(model: flat.FlatModel) -> dict[Expr, Span]:
+    """Of each delay the first equation that has it."""
+    sides = [(e, side) for e in reversed(model.equations) for side in (e.lhs, e.rhs)]
+    return {n: e.span for e, side in sides if holds(side, _is_delay) for n in walk(side) if n.op == "delay"}
+
+
+def _is_delay(e: Expr) -> bool:
+    return e.op == "delay"
+
+
 class _Splitter:
-    def __init__(self, model: flat.FlatModel):
-        self._model = model
+    def __init__(self, model: flat.FlatModel, places: dict[Expr, Span]) -> None:
+        self._model, self._places = model, places
         self.inner = lambda e: e
         self.delays: list[Delay] = []
         self.asserts: list[flat.Assert] = []
@@ -62,13 +74,14 @@ class _Splitter:
             return self.inner(value)
         if not is_parametric(seconds, self._model.variables):
             hint = "give delayTime as a parameter"
-            raise Diagnostic("R091", f"{to_text(n)}: a time that varies is outside the subset", self._model.span, hint)
+            raise Diagnostic(
+                "R091", f"{to_text(n)}: a time that varies is outside the subset", self._places.get(n), hint
+            )
         value, text = self.inner(value), f"delay({to_text(value)}, {to_text(seconds)})"
         while f"past of {text}" in self.variables:  # a text that was cut, or another delayMax
             text += "'"
         past, source, delayed = (f"{what} of {text}" for what in ("past", "source", "value"))
-        span = self._model.span
-        self.delays.append(Delay(source, past, seconds))
+        span = self._places.get(n, self._model.span)
         self.variables |= {
             past: flat.Variable(past, span), delayed: flat.Variable(delayed, span),
             source: flat.Variable(source, span, causality="input"),
@@ -77,8 +90,7 @@ class _Splitter:
             message = f"{text}: delayTime is longer than delayMax"
             self.asserts.append(flat.Assert(relation("<=", seconds, longest), message, span))
         at_start = (var(delayed), var(past))
-        self.equations += [
-            flat.Equation(var(past), value, span, "", f"{past} = {to_text(value)}"),
-            flat.Equation(var(delayed), var(source), span, "", f"{delayed} = {text}", at_start),
-        ]
+        found = flat.Equation(var(delayed), var(source), span, "", f"{delayed} = {text}", at_start)
+        self.equations += [flat.Equation(var(past), value, span, "", f"{past} = {to_text(value)}"), found]
+        self.delays.append(Delay(source, past, seconds, found))
         return var(delayed)

@@ -100,6 +100,9 @@ class Checks:
     def delay_inputs(self) -> list[str]:
         return [str(self.prepared.storage.slot(d.input).index) for d in self.prepared.delays]
 
+    def delay_equations(self) -> list[str]:
+        return [str(self.equations.index(d.source)) for d in self.prepared.delays]
+
     def transports(self) -> list[str]:
         """What is carried, and with what it begins; nothing where nothing is."""
         carried = self.prepared.transports

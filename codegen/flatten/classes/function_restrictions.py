@@ -11,11 +11,12 @@ from lacuna.codegen.flatten.classes.leaf import check_attributes
 from lacuna.codegen.flatten.classes.prefixes import check_component
 from lacuna.codegen.flatten.classes.types import EXTERNAL, Type
 from lacuna.codegen.flatten.expressions.enumerations import enumeration_of
+from lacuna.codegen.flatten.expressions.evaluate import evaluate_dimensions
 from lacuna.codegen.flatten.expressions.lower import modifier_value
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier, from_tree, merge, refuse_each
 from lacuna.codegen.flatten.names.scope import Scope
-from lacuna.codegen.flatten.names.values import Array, ChosenText, items_of, shape_text
+from lacuna.codegen.flatten.names.values import ChosenText, Value, items_of, shape_of, shape_text
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.references import references
@@ -122,7 +123,7 @@ def _check_modification(cls: ast.Class, local: Declared, names: set[str], contex
             whole = merge(own, found.modifier) or own
             check_attributes(found.primitive, declaration.name, whole)
             for name, child in whole.children.items():
-                _check_attribute(local, name, child, names)
+                _check_attribute(local, name, child, names, of_type=name not in own.children)
         return
     if found.cls is None or found.cls.kind not in ("record", "operator record"):
         return
@@ -137,14 +138,13 @@ def _check_modification(cls: ast.Class, local: Declared, names: set[str], contex
                 raise Diagnostic("R031", f"{name} of {found.cls.name} is final", child.span, hint)
 
 
-def _check_attribute(local: Declared, name: str, said: Modifier, names: set[str]) -> None:
-    """An attribute has the type that it is of (4.9). One that follows variables of the function is not looked at."""
+def _check_attribute(local: Declared, name: str, said: Modifier, names: set[str], of_type: bool) -> None:
+    """An attribute has the type that it is of (4.9), and its size. One that follows variables of the function is not
+    looked at."""
     if not isinstance(said.value, ast.Expression) or any(r.names[0] in names for r in references(said.value)):
         return
     value = modifier_value(said)
-    if isinstance(value, Array) and not (local.declaration.dimensions or local.type.dimensions):
-        message = f"{name} of the scalar {local.name} has size {shape_text(value.shape)}"
-        raise Diagnostic("R036", message, said.span, "give one value")
+    _check_size(local, name, said, value, set() if of_type else names, [] if of_type else local.declaration.dimensions)
     own = (local.type.cls.origin or local.type.cls).path if local.type.literals else ""
     wanted, kind = _TYPES.get(name, (local.type.primitive, own))
     for item in items_of(value):
@@ -154,3 +154,28 @@ def _check_attribute(local: Declared, name: str, said: Modifier, names: set[str]
             given, needed = (k.rpartition(".")[2] or t for k, t in ((of, found), (kind, wanted)))
             message = f"{name} of {local.name} is {needed}, its value {given}"
             raise Diagnostic("R024", message, said.span, f"give a {needed}")
+
+
+def _check_size(
+    local: Declared, name: str, said: Modifier, value: Value, names: set[str], dimensions: list[ast.Expression]
+) -> None:
+    """An attribute has the size of the variable, as far as that is known; beside `each` that of its type (7.2.5).
+    Raises R036."""
+    sized = [None if _follows(d, names) else d for d in dimensions]
+    known = [d and evaluate_dimensions([d], local.scope, None, local.name)[0] for d in sized]
+    own, given = local.type.dimensions, shape_of(value)
+    wanted = [*known, *own]
+    if given and not (own or local.declaration.dimensions):
+        message = f"{name} of the scalar {local.name} has size {shape_text(given)}"
+        raise Diagnostic("R036", message, said.span, "give one value")
+    sizes = next((s for s in ((wanted, own, []) if said.each else (wanted,)) if len(s) == len(given)), None)
+    if sizes is None or any(n is not None and n != m for n, m in zip(sizes, given, strict=True)):
+        size = ", ".join(":" if n is None else str(n) for n in wanted)
+        hint = "both need the same size" if given else f"write each {name} = ..."
+        message = f"{local.name} has size [{size}], {name} {shape_text(given) if given else 'a scalar'}"
+        raise Diagnostic("R036", message, said.span, hint)
+
+
+def _follows(dimension: ast.Expression, names: set[str]) -> bool:
+    """Whether a size follows a value, or variables of the function."""
+    return isinstance(dimension, ast.Colon) or any(r.names[0] in names for r in references(dimension))

@@ -7,10 +7,12 @@ from dataclasses import dataclass, field
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.restrictions import check_class
 from lacuna.codegen.flatten.expressions.evaluate import evaluate_dimensions
+from lacuna.codegen.flatten.expressions.lower import modifier_value
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier, for_each, from_tree, merge
 from lacuna.codegen.flatten.names.scope import PRIMITIVES, Scope, base_class, find_class
 from lacuna.codegen.flatten.names.unknown import unknown_class
+from lacuna.codegen.flatten.names.values import shape_of
 from lacuna.codegen.flatten.names.views import constraints_of, view
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.references import references
@@ -89,7 +91,10 @@ def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:
             found.modifier = for_each(found.modifier)
         for tree, around in reversed(constraints_of(cls)):
             found.modifier = merge(from_tree(tree, Scope(context, around, None)), found.modifier)
-        found.modifier = merge(from_tree(cls.alias.modification, inside), found.modifier)
+        own = from_tree(cls.alias.modification, inside)
+        if cls.alias.dimensions:
+            _refuse_scalars(own, cls.name)
+        found.modifier = merge(own, found.modifier)
         found.dimensions = evaluate_dimensions(cls.alias.dimensions, inside, None, cls.name) + found.dimensions
         found.causality = cls.alias.causality or found.causality
         found.named = cls
@@ -104,6 +109,14 @@ def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:
             found.named = cls
             return found
     return Type(None, cls)
+
+
+def _refuse_scalars(said: Modifier, name: str) -> None:
+    """What `type T = Real[n](...)` says is said of all its elements at once, as of a variable x[n] (4.5.1, 7.2.5)."""
+    for attribute, child in said.children.items():
+        if child.value is not None and not child.each and shape_of(modifier_value(child)) == ():
+            message = f"{name} is an array, {attribute} a scalar"
+            raise Diagnostic("R036", message, child.span, f"write each {attribute} = ...")
 
 
 def causality_of(cls: ast.Class | None, context: Context) -> str:

@@ -13,7 +13,7 @@ from lacuna.codegen.flatten.equations.equations import Collected, check_target, 
 from lacuna.codegen.flatten.equations.independent import independent_parts
 from lacuna.codegen.flatten.equations.mixed import lasting_targets, split_by_time
 from lacuna.codegen.flatten.equations.symbolic_run import SymbolicRun
-from lacuna.codegen.flatten.equations.when import procedure, when_conditions
+from lacuna.codegen.flatten.equations.when import procedure, refuse_inner_whens, when_conditions
 from lacuna.codegen.flatten.expressions.constants import is_known, known
 from lacuna.codegen.flatten.expressions.lower import NOT_THERE, lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.names.context import Context
@@ -30,7 +30,7 @@ from lacuna.codegen.syntax import ast
 
 def flatten_algorithm(section: ast.Section, scope: Scope, out: Collected) -> None:
     """Add what an algorithm section computes, as Algorithms or as equations."""
-    _refuse_inner_whens(section.items)
+    refuse_inner_whens(section.items)
     statements = _statements(section.items, scope, in_when=False)
     parts = independent_parts(statements, scope.context) if _has_when(statements) else [statements]
     for part in parts:
@@ -64,17 +64,6 @@ def _flatten_part(statements: list[flat.Statement], section: ast.Section, scope:
     out.asserts += run.asserts
 
 
-def _refuse_inner_whens(items: list[ast.Item], inside: str = "") -> None:
-    """A when-statement stands in no other statement (11.2.7.2). Raises R057."""
-    for item in items:
-        if isinstance(item, ast.When) and inside:
-            raise Diagnostic("R057", f"'when' inside of {inside}", item.span, "write 'when' around, or its condition")
-        bodies = [body for _, body in item.branches] if isinstance(item, ast.If) else []
-        bodies += [item.body] if isinstance(item, ast.For | ast.While) else []
-        for body in bodies:
-            _refuse_inner_whens(body, type(item).__name__.lower())
-
-
 def _with_whole_arrays(names: Iterable[str], context: Context) -> tuple[str, ...]:
     """An algorithm that assigns elements of an array gives the whole of it: the others keep what they start with
     (11.1.2)."""
@@ -84,18 +73,20 @@ def _with_whole_arrays(names: Iterable[str], context: Context) -> tuple[str, ...
 
 
 def _nested(statements: list[flat.Statement]) -> list[flat.Statement]:
-    found = list(statements)
-    for s in statements:
-        if isinstance(s, flat.If):
-            found += [n for _, body in s.branches for n in _nested(body)]
-        elif isinstance(s, flat.While):
-            found += _nested(s.body)
-    return found
+    bodies = [body for s in statements if isinstance(s, flat.If) for _, body in s.branches]
+    bodies += [s.body for s in statements if isinstance(s, flat.While)]
+    return [*statements, *(n for body in bodies for n in _nested(body))]
+
+
+def _is_left(statements: list[flat.Statement]) -> bool:
+    return bool(statements) and isinstance(statements[-1], flat.Break)
 
 
 def _statements(items: list[ast.Item], scope: Scope, in_when: bool) -> list[flat.Statement]:
     result: list[flat.Statement] = []
     for item in items:
+        if _is_left(result):
+            break  # in each case: what follows never runs
         if isinstance(item, ast.Assignment):
             result += assignment(item, scope)
         elif isinstance(item, ast.If):
@@ -125,8 +116,10 @@ def _for(item: ast.For, scope: Scope, in_when: bool) -> list[flat.Statement]:
         item = ast.For(item.span, [first], [ast.For(item.span, rest, item.body)])
     if in_when and (varying := varying_bounds(item.iterators[0], scope)) is not None:
         return _counted(item, *varying, scope)
-    passes = [_statements(item.body, inner, in_when) for inner in unroll(item, scope)]
-    whole = [s for body in passes for s in body]
+    whole: list[flat.Statement] = []
+    for inner in unroll(item, scope):
+        if not _is_left(whole):
+            whole += _statements(item.body, inner, in_when)
     left = any(isinstance(s, flat.Break) for s in _nested(whole))
     return [flat.While(TRUE, [*whole, flat.Break(item.span)], item.span)] if left else whole
 

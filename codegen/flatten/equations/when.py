@@ -157,3 +157,14 @@ def _reinit(call: ast.Call, scope: Scope) -> list[flat.Statement]:
         check_types(t, v, call.span, scope)
         result.append(flat.Reinit(str(t.value), v, call.span))
     return result
+
+
+def refuse_inner_whens(items: list[ast.Item], inside: str = "") -> None:
+    """A when-statement stands in no other statement (11.2.7.2). Raises R057."""
+    for item in items:
+        if isinstance(item, ast.When) and inside:
+            raise Diagnostic("R057", f"'when' inside of {inside}", item.span, "write 'when' around, or its condition")
+        bodies = [body for _, body in item.branches] if isinstance(item, ast.If) else []
+        bodies += [item.body] if isinstance(item, ast.For | ast.While) else []
+        for body in bodies:
+            refuse_inner_whens(body, type(item).__name__.lower())

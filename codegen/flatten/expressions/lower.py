@@ -23,13 +23,15 @@ from lacuna.codegen.flatten.names.values import (
     elementwise,
     holds_records,
     promote,
+    scalars,
     shape_of,
     stack,
+    with_scalars,
 )
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
-from lacuna.codegen.syntax.references import calls_nothing
+from lacuna.codegen.syntax.references import calls_nothing, references
 
 Handler = Callable[..., Value]
 
@@ -186,9 +188,10 @@ def _if(e: ast.IfExpression, scope: Scope) -> Value:
     for condition, written in reversed(chosen):
         then = _alternative(written, scope, True)
         if isinstance(then, Diagnostic) or isinstance(result, Diagnostic):
-            if not is_known(condition, scope.context):
-                raise then if isinstance(then, Diagnostic) else result
-            result = then if known(condition, scope, e.span, "the condition").value else result
+            if is_known(condition, scope.context):
+                result = then if known(condition, scope, e.span, "the condition").value else result
+            else:
+                result = chosen_value(condition, *_or_nothing(then, result, e, scope), written.span, scope)
         else:
             result = chosen_value(condition, then, result, written.span, scope)
     if isinstance(result, Diagnostic):
@@ -209,6 +212,19 @@ def _beside(result: Value, other: ast.Expression, scope: Scope) -> Value:
             raise
         return result
     return beside_unchosen(result, value, other.span, scope)
+
+
+def _or_nothing(
+    then: Value | Diagnostic, otherwise: Value | Diagnostic, e: ast.IfExpression, scope: Scope
+) -> tuple[Value, Value]:
+    """Both alternatives where one does not exist: in a pass of a loop, or in a function, the run may never choose it
+    (`if i < n then x[i + 1] else 0`), and ends where it does. Raises the reason elsewhere."""
+    other, reason = (otherwise, then) if isinstance(then, Diagnostic) else (then, otherwise)
+    follows = scope.in_function or any(r.names[0] in scope.locals for r in references(e))
+    if isinstance(other, Diagnostic) or not follows or not all(isinstance(s, Expr) for s in scalars(other)):
+        raise reason
+    nothing = with_scalars(other, (ex.nothing(s.type) for s in scalars(other)))
+    return (nothing, other) if reason is then else (other, nothing)
 
 
 NOT_THERE = ("R045", "R046")  # an element outside its array, a division by zero

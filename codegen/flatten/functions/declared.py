@@ -49,7 +49,6 @@ from lacuna.codegen.syntax.references import references
 from lacuna.suggest import did_you_mean
 
 Written = dict[str, tuple[Value, Span]]  # arguments with their places, by the name of the input
-_EVENTFUL = ("abs", "sign", "floor", "ceil", "integer", "mod", "rem", "div")
 
 
 def call_function(cls: ast.Class, e: ast.Call, scope: Scope, given: dict[str, Value] | None = None) -> list[Value]:
@@ -271,13 +270,9 @@ def function_value(e: ast.Expression, scope: Scope) -> FunctionValue:
     return FunctionValue(cls, bound)
 
 
-def _eventful(n: Expr) -> bool:
-    return n.op in ex.RELATIONS or n.op in ("min", "max") or (n.op == "call" and n.value in _EVENTFUL)
-
-
 def _has_events(arguments: list[Value]) -> bool:
     """Would inlining put event-generating arguments under the noEvent of the function's body?"""
-    return any(holds(e, _eventful) for a in arguments for e in expressions_of(a))
+    return any(holds(e, ex.is_eventful) for a in arguments for e in expressions_of(a))
 
 
 def _without_events(value: Value) -> Value:
@@ -286,7 +281,7 @@ def _without_events(value: Value) -> Value:
     def quiet(item: Expr | str | Record) -> Expr | str | Record:
         if isinstance(item, Record):
             return _without_events(item)
-        if isinstance(item, Expr) and item.op not in ("const", "var") and holds(item, _eventful):
+        if isinstance(item, Expr) and item.op not in ("const", "var") and holds(item, ex.is_eventful):
             if item.op == "if" and item.type == ex.INTEGER:  # noEvent of a whole one would be Integer(e) of a literal
                 return ex.if_else(*map(quiet, item.args))
             return ex.special("noEvent", item, type=item.type)

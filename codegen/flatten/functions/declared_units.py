@@ -116,7 +116,7 @@ def _in_declared(local: Local, result: Value, signature: Signature, context: Con
         return result
     name = f"{signature.cls.path}(...)" if len(signature.outputs) == 1 else f"{local.name} of {signature.cls.path}(...)"
     context.literal_units[name] = local.unit
-    return with_scalars(result, (_declared(s, ex.var(name), local.unit) for s in scalars(result)))
+    return with_scalars(result, (_declared(s, ex.var(name)) for s in scalars(result)))
 
 
 def _of_numbers(
@@ -161,8 +161,8 @@ def _named(local: Local, value: Value, signature: Signature, context: Context) -
     return with_scalars(value, map(name, items))
 
 
-def _declared(s: Expr | str, name: Expr, unit: str) -> Expr | str:
-    return measured(s, unit, str(name.value)) if _is_number(s) and not ex.is_nothing(s) else _marked(s, name)
+def _declared(s: Expr | str, name: Expr) -> Expr | str:
+    return measured(s, name) if _is_number(s) and not ex.is_nothing(s) else _marked(s, name)
 
 
 def _marked(s: Expr | str, meant: Expr | str) -> Expr | str:

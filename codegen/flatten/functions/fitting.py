@@ -233,6 +233,7 @@ def result_of(local: Local, value: Value, cls: ast.Class, context: Context) -> V
             message = f"the output {local.name} of {cls.name} is not assigned where no condition holds"
             hint = "the run ends where that is met: give it a value first, or write else"
             context.warnings.append(Diagnostic("W011", message, span, hint, severity="warning"))
-        return ex.substitute(s, {n: ex.nothing(n.type) for n in missing}) if missing else s
+        found = ex.substitute(s, {n: ex.nothing(n.type) for n in missing}) if missing else s
+        return ex.as_real(found) if local.type.primitive == REAL and isinstance(found, Expr) else found
 
     return with_scalars(value, map(assigned, scalars(value)))

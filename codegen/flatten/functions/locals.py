@@ -12,7 +12,7 @@ from lacuna.codegen.flatten.classes.instance import Instance
 from lacuna.codegen.flatten.classes.types import Type, causality_of, resolve_type
 from lacuna.codegen.flatten.expressions.enumerations import IndexType, index_type
 from lacuna.codegen.flatten.names.context import Context
-from lacuna.codegen.flatten.names.modifiers import from_tree, merge
+from lacuna.codegen.flatten.names.modifiers import Modifier, from_tree, merge
 from lacuna.codegen.flatten.names.scope import Scope, find_class
 from lacuna.codegen.flatten.names.values import (
     Array,
@@ -33,6 +33,7 @@ class Local:
     type: Type
     scope: Scope  # of the class it is declared in
     modified_in: ast.Class | None = None  # the class whose extends clause gives the default
+    outer: Modifier | None = None  # what an extends clause says of it
 
     def around_default(self, scope: Scope) -> Scope:
         """`scope` for the default: a modification's names are looked up where it is written (7.2)."""
@@ -53,7 +54,7 @@ class Local:
     def unit(self) -> str:
         """The declared unit, "" where there is none that is known. Raises U005 for what is no unit."""
         own = from_tree(self.declaration.modification, self.scope)
-        child = (merge(own, self.type.modifier) or own).children.get("unit")
+        child = (merge(self.outer, merge(own, self.type.modifier)) or own).children.get("unit")
         if child is None:
             return ""
         text = child.value.value if isinstance(child.value, ast.Literal) else None
@@ -190,7 +191,7 @@ def signature_of(cls: ast.Class, context: Context) -> Signature:
             if cls.kind == "function" and not declaration.causality:
                 causality = found_type.causality or causality_of(found_type.cls, context)
                 declaration = replace(declaration, causality=causality)
-            declared.append(Local(name, declaration, found_type, scope, modified_in))
+            declared.append(Local(name, declaration, found_type, scope, modified_in, outer))
         if cls.kind == "function":
             check_function(cls, [section for section, _ in instance.sections], declared, context)
         body = tuple(item for section, _ in instance.sections for item in section.items)

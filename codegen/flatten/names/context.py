@@ -35,6 +35,7 @@ class Lowering:
     construct: Callable[..., Value]  # a call of a record
     text: Callable[..., Value | None]  # String of a record
     run: Callable[[str, list[Expr], Context, Span], Expr]  # a kept function on constants
+    expanded: Callable[..., Value]  # a reduction in a model over a range that varies
 
 
 @dataclass

@@ -1,6 +1,6 @@
 // section: 10.3.4.1
-// refuse: F036 11
-model RowsOfAVaryingRange "how many scalars a sum is of varies, and it is no sum of rows"
+// refuse: R062 7
+model RowsOfAVaryingRange "a sum over whole rows is a scalar"
   function f
     input Real A[:, :];
     input Integer n;

@@ -6,13 +6,15 @@ becomes the call of a function that has the loop; what the expression reads are 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 
 from lacuna.codegen import flat
+from lacuna.codegen.errors import Span
 from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
+from lacuna.codegen.flatten.names.elements import local_value
 from lacuna.codegen.flatten.names.scope import Scope
-from lacuna.codegen.flatten.names.values import Array, Record, Value, items_of, scalars, shape_of, with_scalars
+from lacuna.codegen.flatten.names.values import Array, Value, scalars, shape_of, with_scalars
 from lacuna.codegen.flatten.references.iterators import iterate
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import INTEGER, Expr
@@ -31,32 +33,42 @@ def bounds(e: ast.Range, scope: Scope) -> tuple[Expr, Expr, Expr]:
     return low, lower_scalar(e.step, scope, INTEGER) if e.step else ex.const(1), high
 
 
-def looped(e: ast.Comprehension, begun: Begun, scope: Scope, outer: str, fresh: Fresh) -> Value:
-    """The reduction of `e`, in the function `outer`; of arrays one for each element."""
-    first = _Loop(e, begun, fresh, 0)
-    calls = [first.call(scope, f"{fresh('loop')} of {outer}")]
+def sizes_fit(required: Sequence[Expr], span: Span) -> list[flat.Statement]:
+    """What has to hold of sizes that vary."""
+    return [flat.Assert(c, "the sizes of arrays differ", span) for c in required]
+
+
+def looped(
+    e: ast.Comprehension, begun: Begun, scope: Scope, required: list[Expr], outer: flat.Function, fresh: Fresh
+) -> Value:
+    """The reduction of `e`, in the function `outer`, where what is `required` holds; of arrays one for each element."""
+    first = _Loop(e, begun, required, outer, fresh, 0)
+    calls = [first.call(scope)]
     for k in range(1, len(scalars(first.value))):
-        calls.append(_Loop(e, begun, fresh, k).call(scope, f"{fresh('loop')} of {outer}"))
+        calls.append(_Loop(e, begun, required, outer, fresh, k).call(scope))
     return with_scalars(first.value, iter(calls))
 
 
 class _Loop:
     """The loop that reduces scalar number `element` of the values."""
 
-    def __init__(self, e: ast.Comprehension, begun: Begun, fresh: Fresh, element: int) -> None:
-        self.e, self.begun, self.fresh, self.element = e, begun, fresh, element
+    def __init__(
+        self, e: ast.Comprehension, begun: Begun, required: list[Expr], outer: flat.Function, fresh: Fresh, element: int
+    ) -> None:
+        self.e, self.begun, self.required, self.outer = e, begun, required, outer
+        self.fresh, self.element = fresh, element
         self.value: Value | None = None  # one of those that are reduced
         self.start = ex.ZERO
         self.own = {RESULT}
 
-    def call(self, scope: Scope, name: str) -> Expr:
+    def call(self, scope: Scope) -> Expr:
+        name = f"{self.fresh('loop')} of {self.outer.name}"
         body = self._over(self.e.iterators, scope)
         if self.value is None:
             raise AtRunTime("an iterator", self.e.span)  # one of them runs over nothing
-        body = [flat.Assign(RESULT, self.start, self.e.span), *body]
-        given = dict(_variables(scope.locals.values()))
+        body = [*sizes_fit(self.required, self.e.span), flat.Assign(RESULT, self.start, self.e.span), *body]
         names = [n for e in expressions(body) for n in ex.walk(e) if n.op == "var" and n.value not in self.own]
-        inputs = {str(n.value): given.get(str(n.value), n) for n in names}
+        inputs = {str(n.value): self._whole(n) for n in names}
         shapes = {n: shape_of(v) for n, v in inputs.items()} | {RESULT: ()}
         types = {n: scalars(v)[0].type for n, v in inputs.items()} | {RESULT: self.start.type}
         made = flat.Function(name, tuple(inputs), (RESULT,), shapes, types, {}, body, self.e.span)
@@ -87,16 +99,7 @@ class _Loop:
         item = scalars(self.value)[self.element]
         return flat.Assign(RESULT, join(ex.var(RESULT, self.start.type), item), self.e.span)
 
-
-def _variables(values: Iterable[Value]) -> Iterator[tuple[str, Value]]:
-    """The variables of a function that values are, fields of records included, by their names."""
-    for value in values:
-        first = next(iter(items_of(value)), None)
-        if isinstance(value, Record):
-            yield from _variables(value.fields.values())
-        elif isinstance(first, Record):
-            yield from _variables(items_of(value))
-        elif isinstance(first, Expr) and first.op == "var":
-            yield str(first.value), value
-        elif isinstance(first, Expr) and first.op == "call" and first.value == "[]":
-            yield str(first.args[0].value), value
+    def _whole(self, n: Expr) -> Value:
+        """The variable of the function that `n` names, or that of a loop around."""
+        name = str(n.value)
+        return local_value(name, n.type, self.outer.shapes[name]) if name in self.outer.shapes else n

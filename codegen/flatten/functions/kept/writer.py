@@ -14,6 +14,7 @@ from lacuna.codegen.flatten.expressions.lower import lower, lower_results, lower
 from lacuna.codegen.flatten.functions.fitting import blank, declared_sizes, fit, typed, unknown_target
 from lacuna.codegen.flatten.functions.kept.loops import Begun, bounds, looped
 from lacuna.codegen.flatten.functions.kept.parts import matched, parts, variables_of
+from lacuna.codegen.flatten.functions.kept.slices import follows_itself, sliced
 from lacuna.codegen.flatten.functions.kept.stores import decided, deciding, read_what_is_set, stores
 from lacuna.codegen.flatten.functions.kept.whole_calls import called
 from lacuna.codegen.flatten.functions.locals import Local
@@ -25,6 +26,7 @@ from lacuna.codegen.flatten.references.references import read_local
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, INTEGER, REAL, TRUE, Expr
 from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.references import references
 
 
 class Writer:
@@ -163,8 +165,8 @@ class Writer:
         once, left = ex.const(1), not rest and _is_left(item.body)
         result += [flat.For(self._fresh(first.name), once, once, once, rounds, item.span)] if left else rounds
 
-    def _looped(self, e: ast.Comprehension, begun: Begun, scope: Scope) -> Value:
-        return looped(e, begun, scope, self.function.name, self._fresh)
+    def _looped(self, e: ast.Comprehension, begun: Begun, scope: Scope, required: list[Expr]) -> Value:
+        return looped(e, begun, scope, required, self.function, self._fresh)
 
     def _fresh(self, stem: str) -> str:
         """A name that no variable can have."""
@@ -172,6 +174,34 @@ class Writer:
         return f"{stem} {self.counter}"
 
     def _assignment(self, item: ast.Assignment, result: list[flat.Statement]) -> None:
+        try:
+            self._assigned(item, result)
+        except AtRunTime:
+            if not isinstance(item.target, ast.Ref) or not any(item.target.subscripts) or follows_itself(item.target):
+                raise
+            result += self._slice(item, item.target.names[0])
+
+    def _slice(self, item: ast.Assignment, name: str) -> list[flat.Statement]:
+        """What the value reads of the variable `name` is what that holds before."""
+        whole, before = self.scope.locals.get(name), []
+        if any(r.names[0] == name for r in references(item.value)) and name in self.function.shapes:
+            copy = self._fresh("before")
+            self.declare(copy, local_value(copy, self.function.types[name], self.function.shapes[name]))
+            self.assign([((copy, self.scope.locals[copy]), whole)], item.span, before)
+
+        def element(target: ast.Ref, value: ast.Expression, scope: Scope) -> list[flat.Statement]:
+            read = scope.with_locals(**{name: self.scope.locals[copy]}) if before else scope
+            given, body = lower(value, read), []
+            self.scope, outer = scope, self.scope
+            try:
+                self.assign([(self._target(target), given)], item.span, body)
+            finally:
+                self.scope = outer
+            return body
+
+        return [*before, *sliced(item, self.scope, self._fresh, element)]
+
+    def _assigned(self, item: ast.Assignment, result: list[flat.Statement]) -> None:
         several = isinstance(item.target, ast.Tuple)
         targets = item.target.items if several else [item.target]
         lowered = lower_results(item.value, self.scope, len(targets)) if several else lower(item.value, self.scope)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from math import prod
 from sys import float_info
 
@@ -11,7 +10,8 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.expressions.arrays import arguments_of, array_of
 from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.enumerations import enumeration_of, index_type, require_same
-from lacuna.codegen.flatten.expressions.lower import Handler, lower, lower_scalar, need_numbers
+from lacuna.codegen.flatten.expressions.lower import OPERATORS, Handler, lower, lower_scalar, need_numbers
+from lacuna.codegen.flatten.expressions.reduce.open_arrays import SIZES, Elements, is_open
 from lacuna.codegen.flatten.names.index_types import literals_of
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Array, Value, fold, holds_records, scalars, shape_of, shape_text
@@ -24,11 +24,10 @@ def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callab
     def build(e: ast.Call, scope: Scope) -> Value:
         try:
             arguments = arguments_of(e, scope, 1, 2 if empty is None else 1)
-        except AtRunTime:
-            written, within = _over_range(e.args[0], scope)
-            if scope.loop is None or len(e.args) != 1 or written is None:
+        except SIZES as reason:
+            if len(e.args) != 1 or not is_open(reason, scope):
                 raise
-            return scope.loop(written, lambda value: _begun(e, value, join, empty, scope), within)
+            return _over_open(e, join, empty, scope, reason)
         if len(arguments) == 2:
             return _of_two(*arguments, join, e, scope)
         values = array_of(arguments[0], e)
@@ -56,30 +55,57 @@ def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callab
     return build
 
 
-def _over_range(e: ast.Expression, scope: Scope) -> tuple[ast.Comprehension | None, Scope]:
-    """`e for i in r`, or part `a:b` of an array as `x[i] for i in a:b`; with what `end` is in r."""
-    if isinstance(e, ast.Comprehension):
-        return (None if e.braces else e), scope
-    written = enumerate(e.subscripts if isinstance(e, ast.Ref) else ())
-    parts = [(k, at, s) for k, subscripts in written for at, s in enumerate(subscripts or ())]
-    parts = [part for part in parts if isinstance(part[2], ast.Range | ast.Colon)]
-    if len(parts) != 1 or not isinstance(parts[0][2], ast.Range):
-        return None, scope
-    ((k, at, bounds),) = parts
-    index = ast.Ref(e.span, ("index of the range",), (None,))  # which no variable can be called
-    by = (*e.subscripts[k][:at], index, *e.subscripts[k][at + 1 :])
-    element = replace(e, subscripts=(*e.subscripts[:k], by, *e.subscripts[k + 1 :]))
-    whole = replace(e, names=e.names[: k + 1], subscripts=(*e.subscripts[:k], None))
-    end = ex.const(shape_of(lower(whole, scope))[at])
-    return ast.Comprehension(e.span, element, [ast.Iterator(e.span, index.names[0], bounds)]), replace(scope, end=end)
+def _over_open(
+    e: ast.Call, join: Callable[[Expr, Expr], Expr], empty: Expr | None, scope: Scope, reason: AtRunTime | Diagnostic
+) -> Value:
+    """The reduction of `e for i in r` where r varies, or of an array whose size does."""
+    written, required = e.args[0], []
+    if not isinstance(written, ast.Comprehension):
+        elements = Elements(written, scope)
+        if not elements.bounds:
+            raise reason
+        written, scope, required = elements.each(), elements.scope, elements.required
+    return _looped(written, lambda value: _begun(e, value, join, empty, scope), scope, required, reason)
+
+
+def _looped(
+    written: ast.Comprehension, begun: Callable[[Value], tuple], scope: Scope, required: list[Expr],
+    reason: AtRunTime | Diagnostic,
+) -> Value:  # fmt: skip
+    """By a loop of the function that runs at run time; in a model by all elements that there are."""
+    if isinstance(reason, AtRunTime):
+        return scope.loop(written, begun, scope, required)
+    return scope.context.lowering.expanded(written, begun, scope, required, reason)
+
+
+def binary(e: ast.Binary, scope: Scope) -> Value:
+    """An operation of two values; the scalar product of vectors whose size varies is a sum."""
+    try:
+        return OPERATORS[ast.Binary](e, scope)
+    except SIZES as reason:
+        if e.op != "*" or not is_open(reason, scope):
+            raise
+        elements = Elements(e, scope)
+        call = elements.summed()
+        if call is None:
+            raise
+        scope = elements.scope
+        return _looped(
+            call.args[0],
+            lambda value: _begun(call, value, ex.add, ex.const(0), scope),
+            scope,
+            elements.required,
+            reason,
+        )
 
 
 def _begun(
     e: ast.Call, value: Value, join: Callable[[Expr, Expr], Expr], empty: Expr | None, scope: Scope
 ) -> tuple[Expr, Callable[[Expr, Expr], Expr]]:
     """What the reduction of such values starts with, and what goes on with it. Raises R051 for what is none."""
-    if shape_of(value) and not isinstance(e.args[0], ast.Comprehension):  # rows: how many scalars there are varies
-        raise AtRunTime("the size of an array", e.span)
+    if shape_of(value) and not (isinstance(e.args[0], ast.Comprehension) and not e.args[0].braces):
+        hint = f"reduce each of them: {e.function}({e.function}(e) for i in r)"
+        raise Diagnostic("R051", f"{e.function} of arrays over a range that varies", e.span, hint)
     if shape_of(value) and str(e.function) != "sum":
         raise _of_scalars_only(e, shape_of(value))
     least = str(e.function) == "min"

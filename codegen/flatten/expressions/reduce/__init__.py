@@ -1,0 +1,1 @@
+"""sum, product, min and max, and what they go over."""
