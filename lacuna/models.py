@@ -250,6 +250,8 @@ class Model:
         begin, end = self.start_time if start is None else start, self.stop_time if stop is None else stop
         if not -np.inf < begin <= end < np.inf:
             raise UserError(f"a run of {self.name} cannot begin at {begin:g} s and end at {end:g} s")
+        if not end - begin < np.inf:
+            raise UserError(f"a run of {self.name} from {begin:g} s to {end:g} s is longer than any number of seconds")
         return begin, end
 
     def _refuse_parameters(self, inputs: Iterable[str]) -> None:

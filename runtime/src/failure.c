@@ -166,6 +166,22 @@ static rt_status fail_relation(rt_session *s, double time, const char *doing) {
   return s->failure.status;
 }
 
+/* Nonlinear equations may have no solution behind a relation before that has switched, nor the relation a value there
+ * that would tell (z^2 = abs(x)): the first that is as near to it as a tolerance tells. */
+static void append_relation(rt_session *s) {
+  char *message = s->failure.message;
+  size_t size = sizeof s->failure.message, n = strlen(message);
+  for (int r = 0; r < s->d->n_rel && n < size; r++) {
+    if (!rt_is_state_relation(s, r) || !(s->g_span[r] > 0) || fabs(s->g[r]) > s->options.rtol * s->g_span[r]) continue;
+    snprintf(
+        message + n, size - n,
+        "; the relation %s is at zero there, and until it switches the equations may have no solution behind: where "
+        "nothing jumps, noEvent(...) goes over it",
+        s->d->relations[r].source.text);
+    return;
+  }
+}
+
 /* Turn the failure that a model function has left in m->failure into the session's. `doing` says what for. */
 rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   const mdl_descriptor *d = s->d;
@@ -186,6 +202,7 @@ rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   rt_fail(s, status_of(f->kind), time, variable, where, "%s at time %.9g s: %s%s%s%s", doing, time, describe(f->kind),
           named ? ", variable " : "", named ? d->variables[variable].name : "", value);
   if (where && d->equation_first) rt_append_equation(s, f->equation);
+  if (f->kind == MDL_FAILURE_NEWTON) append_relation(s);
   return s->failure.status;
 }
 

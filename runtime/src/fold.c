@@ -151,6 +151,23 @@ static rt_status fail(rt_session *s, double t, int equation) {
                  t, names);
 }
 
+/* Whether another root, which faces the other way, comes to where the block turns as the branch does, on its other
+ * side: from there Newton's method finds it where the branch was last known. Two that meet are two ways to go on, and
+ * one of them is what has been found behind. A root that turns by itself, as that of m (h - h0) = 0 with the sign of m,
+ * has none beside it. */
+static bool meets_another(rt_session *s, int equation) {
+  rt_branches *b = &s->branches;
+  rt_dense_point(s, b->t, s->x_trial);
+  copy(s, b->v_tried, b->xdot_tried, b->v, b->xdot);
+  for (int k = 0; k < s->d->n_branches; k++) {
+    const mdl_computed *c = &s->d->branches[k];
+    double here = *kept(c, b->v_reached, b->xdot_reached), *other = kept(c, b->v_tried, b->xdot_tried);
+    if (c->equation == equation) *other = here - (*other - here);
+  }
+  s->data.contraction = (mdl_contraction){.only = 1 + equation};
+  return !rt_rhs(s, b->t, s->x_trial, b->xdot_tried, b->v_tried) && s->data.contraction.turned == 1 + equation;
+}
+
 /* From the values reached at `from` to those at `to`. */
 static rt_status follow(rt_session *s, double from, double to) {
   rt_branches *b = &s->branches;
@@ -165,6 +182,7 @@ static rt_status follow(rt_session *s, double from, double to) {
       rt_status status = follow(s, from, middle);
       return status ? status : follow(s, middle, to);
     }
+    if (turned && changed(s, equation) <= 1 && meets_another(s, equation)) return fail(s, from, equation);
     if (jumps(s, from, to, equation)) {
       if (comes_as_a_root(s, from, to - from, equation)) return fail(s, from, equation);
       if (s->sensitivities) rt_tangent_lose(s, RT_FLAG_FOLD, -1);
@@ -253,6 +271,17 @@ rt_status rt_branch_row(rt_session *s, double t, double *xdot, double *v, bool f
   return RT_OK;
 }
 
+/* Whether a block of the session's point has come to a root that faces another way than that of the branch: one that is
+ * near, where the two meet. */
+static bool faces_away(const rt_session *s) {
+  const rt_branches *b = &s->branches;
+  for (int k = 0; k < s->d->n_branches; k++) {
+    int equation = s->d->branches[k].equation;
+    if (b->orientation[equation] * b->facing_reached[equation] < 0) return true;
+  }
+  return false;
+}
+
 /* To the end of the last step, or to the event that cut it short. Where the step has found another solution there, the
  * run goes on from that of the branch. A multistep method solves the equations by itself: of how it came to their
  * solution nothing is known. */
@@ -263,7 +292,7 @@ rt_status rt_branch_follow(rt_session *s) {
   rt_status status = b->reached == s->t ? RT_OK : reach(s, s->t);
   if (status) return status;
   copy(s, b->v_tried, b->xdot_tried, s->data.v, s->data.xdot);
-  if (changed(s, -1) <= 1) return RT_OK;
+  if (changed(s, -1) <= 1 && !faces_away(s)) return RT_OK;
   copy(s, s->data.v, s->data.xdot, b->v_reached, b->xdot_reached);
   turn(s, b->orientation, b->facing_reached);
   if (s->method->multistep) s->pending |= RT_PENDING_BRANCH;

@@ -55,7 +55,16 @@ void rt_keep_step_end(rt_session *s) {
   memcpy(s->v_end, s->data.v, (size_t)s->d->n_v * sizeof(double));
 }
 
-/* On to the end of the next piece of the last step. */
+/* The point at `to` in the last step, from that at its start; 0 found. */
+static int look_at(rt_session *s, double to) {
+  rt_dense_eval(&s->dense, s->d->n_x, to, s->data.x);
+  s->t = to;
+  int status = rt_rhs(s, to, s->data.x, s->data.xdot, s->data.v);
+  return status ? status : rt_check_finite(s, s->data.xdot);
+}
+
+/* On to the end of the next piece of the last step. Where there is no such point, as of equations that end behind a
+ * relation that switches in the piece, one of half its length: down to what time tells apart. */
 rt_status rt_look_on(rt_session *s) {
   const mdl_descriptor *d = s->d;
   double next = s->t_previous + s->look;
@@ -67,8 +76,12 @@ rt_status rt_look_on(rt_session *s) {
     return RT_OK;
   }
   rt_dense_prepare(s);
-  rt_dense_eval(&s->dense, d->n_x, next, s->data.x);
-  s->t = next;
-  int status = rt_rhs(s, s->t, s->data.x, s->data.xdot, s->data.v);
-  return status || rt_check_finite(s, s->data.xdot) ? rt_fail_model(s, s->t, "looking inside a step") : RT_OK;
+  mdl_failure told = s->data.failure;
+  memcpy(s->v_before, s->data.v, (size_t)d->n_v * sizeof(double));
+  for (double piece = s->look; look_at(s, s->t_previous + piece); piece *= 0.5) {
+    if (piece <= rt_smallest_step(s)) return rt_fail_model(s, s->t, "looking inside a step");
+    memcpy(s->data.v, s->v_before, (size_t)d->n_v * sizeof(double));
+    s->data.failure = told;
+  }
+  return RT_OK;
 }

@@ -15,6 +15,8 @@ static const double slow = 0.01;     /* rate at which another matrix costs less 
 static const double most_rate = 0.9; /* of the changes: slower is no convergence */
 static const double done = 1e-4;     /* of the tolerance: so small a first change needs no second */
 
+enum { MOST_ANEW = 10 }; /* from thirty times too far, by halves and then squares, to 1e-10 of it */
+
 typedef struct {
   rt_session *s;
   SUNNonlinSolLSetupFn set_up;
@@ -139,6 +141,26 @@ static int iterate(content *c, const step *k, double tolerance) {
   return SUN_NLS_CONV_RECVR;
 }
 
+/* Corrections with a matrix of each point on the way, where that of the step's start does not serve: by q abs(q) = p
+ * the slope at a solution near zero is many times that of where it is looked for. The first may go too far. */
+static int iterate_anew(content *c, const step *k, double tolerance, void *ida) {
+  double size, last = INFINITY;
+  sunbooleantype current = SUNFALSE;
+  memset(k->correction, 0, (size_t)k->n * sizeof *k->correction);
+  c->is_old = true;
+  for (int i = 0; i < MOST_ANEW; i++, last = size) {
+    int status = residual(c, k);
+    if (!status) status = c->set_up(SUNTRUE, &current, ida);
+    if (!status) status = correct(c, k, &size);
+    if (status) return status;
+    c->iterations++;
+    double rate = size / last;
+    if (rate > most_rate) return SUN_NLS_CONV_RECVR;
+    if (size <= done * tolerance || (i > 0 && rate / (1 - rate) * size <= tolerance)) return 0;
+  }
+  return SUN_NLS_CONV_RECVR;
+}
+
 /* The solution is known. */
 static int take(rt_ida *m, const step *k) {
   const double *point = m->starts + m->known * k->n;
@@ -174,6 +196,7 @@ static int solve(SUNNonlinearSolver solver, N_Vector y0, N_Vector correction, N_
     }
     bool begun = !status;
     if (begun) status = iterate(c, &k, tolerance);
+    if (status == SUN_NLS_CONV_RECVR && c->is_new) status = iterate_anew(c, &k, tolerance, ida);
     if (!status) return 0;
     c->fails++;
     if (status < 0 || !begun || c->is_new) return status;

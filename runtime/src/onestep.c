@@ -56,10 +56,13 @@ static double mean_square(const rt_session *s, const rt_onestep *o, const double
 }
 
 /* The same of what is left of the error where time is rounded: each stage is off by as much as time is, and what f
- * changes over the step by its share. No shorter step has less of it. */
+ * changes over the step by its share. No shorter step has less of it. Where that share is as large as the state is,
+ * there is none in time's resolution (a pole, which an implicit scheme steps over), and none of the error is left out.
+ */
 static double beyond_rounding(const rt_session *s, rt_onestep *o) {
   for (int i = 0; i < s->d->n_x; i++) {
     double rounding = rt_time_resolution(s) * fabs(o->f1[i] - o->f0[i]);
+    if (!(rounding < rt_max(fabs(o->x0[i]), s->nominal[i]))) continue;
     o->error[i] = copysign(rt_max(0, fabs(o->error[i]) - rounding), o->error[i]);
   }
   return mean_square(s, o, o->error);

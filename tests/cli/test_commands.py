@@ -155,6 +155,7 @@ def test_recorded_input_drives_a_model(tmp_path: Path) -> None:
         (["simulate", SERVO, "--solver", "rk4"], "step"),
         (["simulate", SERVO, "--rtol", "-1"], "rtol"),
         (["simulate", SERVO, "--start", "2", "--stop", "1"], "cannot begin at 2 s and end at 1 s"),
+        (["simulate", SERVO, "--start", "-1e308", "--stop", "1e308"], "is longer than any number of seconds"),
         (["simulate", SERVO, "--signal", "speed"], "speed"),
         (["simulate", SERVO, "-u", "u=missing.csv"], "missing.csv"),
         (["compare", "--only", "helthy"], "helthy"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
@@ -49,3 +50,18 @@ def test_the_solver_of_the_blocks_goes_where_idas_newton_method_does_not(tmp_pat
 def test_the_error_test_names_the_state(tmp_path: Path, solver: str, why: str) -> None:
     result = simulated(tmp_path, JUMPS, solver=solver, stop=3.0)
     assert f"small {why}" in str(result.failure)
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+@pytest.mark.parametrize(
+    ("law", "pole"), [("x^2", 1.0), ("1 + x^2", math.pi / 4), ("x^3", 0.5), ("exp(x)", math.exp(-1))]
+)
+def test_no_step_goes_over_a_pole(tmp_path: Path, law: str, pole: float, solver: str) -> None:
+    """Where all of an error is less than what time is rounded by times what x' has jumped by, nothing is known of it:
+    rodas4 came to 1e37 at time 3, with all signs. Steps err by their tolerance each."""
+    model = compiled(tmp_path, f"model Pole Real x(start = 1, fixed = true); equation der(x) = {law}; end Pole;")
+    for rtol in (1e-3, 1e-4, 1e-5, 1e-6, 1e-8):
+        result = runtime.simulate(model, solver=solver, stop=3.0, rtol=rtol)
+        assert not result.complete
+        assert result.failure.line == 1
+        assert result.failure.time == pytest.approx(pole, rel=rtol * result.counters["steps"])

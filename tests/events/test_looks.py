@@ -114,3 +114,31 @@ end Three;"""
     prepared, _ = translate(write_model(tmp_path, text))
     assert [str(e) for e in prepared.guards.phases] == ["s * phi"]
     assert not prepared.guards.curved
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("interval", [0.0, 0.25])
+def test_a_look_that_goes_too_far_is_shortened(tmp_path: Path, solver: str, interval: float) -> None:
+    """z^2 + z = x ends at x = -1/4, soon behind where max(x, 0) switches; a look of a second passes both."""
+    text = """model Halves
+  Real x, z(start=0.5);
+equation
+  x = sin(3*time + 0.7); z^2 + z = max(x, 0);
+end Halves;"""
+    r = runtime.simulate(compiled(tmp_path, text), solver=solver, stop=4.0, interval=interval)
+    np.testing.assert_allclose(switchings(r), (np.pi * np.arange(1, 5) - 0.7) / 3, atol=1e-9)
+    np.testing.assert_allclose(r["z"], -0.5 + np.sqrt(0.25 + np.maximum(r["x"], 0)), atol=1e-9)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_an_equation_without_a_value_behind_its_relation_says_so(tmp_path: Path, solver: str) -> None:
+    """z^2 = x has none behind x = 0, and abs(x) is x until it has switched there."""
+    text = """model Root
+  Real x, z(start=0.5), y(start=0, fixed=true);
+equation
+  x = sin(time + 0.7); z^2 = {}; der(y) = z;
+end Root;"""
+    r = runtime.simulate(compiled(tmp_path, text.format("abs(x)")), solver=solver, stop=4.0)
+    assert r.failure.line == 4 and "the relation 0.0 > x in abs(x) is at zero there" in str(r.failure)
+    r = runtime.simulate(compiled(tmp_path, text.format("noEvent(abs(x))")), solver=solver, stop=4.0)
+    assert r.complete, r.failure

@@ -143,3 +143,21 @@ end Cube;"""
     quarter = math.sqrt(math.pi) / 2 * math.gamma(2 / 3) / math.gamma(7 / 6)
     exact = quarter * np.array([0, 1, 0, -1, 0, 1, 0])
     np.testing.assert_allclose(r["z"], exact, atol=1000 * rtol)
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6, 1e-8, 1e-9])
+def test_two_orifices_in_series_come_to_rest(tmp_path: Path, solver: str, rtol: float) -> None:
+    """Half of the difference drives each: d' = -2 sqrt(d/2), so d = (1 - t/sqrt(2))^2, and rest from sqrt(2) on. There
+    an explicit step is as long as the root of the tolerance; IDA's steps, which solve the law at their ends, grow."""
+    text = """model Series
+  Real p1(start=2, fixed=true), p2(start=1, fixed=true), pm(start=1.5), v(start=0.7), w;
+equation
+  v*abs(v) = p1 - pm; w*abs(w) = pm - p2; v = w; der(p1) = -v; der(p2) = w;
+end Series;"""
+    r = simulated(tmp_path, text, solver=solver, stop=5, rtol=rtol, interval=0.1)
+    assert r.complete, r.failure
+    exact = np.maximum(1 - r["time"] / math.sqrt(2), 0) ** 2
+    np.testing.assert_allclose(r["p1"] - r["p2"], exact, atol=20 * rtol)
+    if solver == "ida":
+        assert r.counters["steps"] < 200

@@ -231,3 +231,44 @@ def test_a_branch_that_ends_behind_an_event_is_no_end(tmp_path: Path, solver: st
     assert result.complete, result.failure
     t = np.linspace(0, 1.5, 300_001)
     assert result["V"][-1] == pytest.approx(np.trapezoid(np.sqrt(np.cos(t)), t), abs=1e-5)
+
+
+EMPTIED = """model Emptied "h = (1 - time/2)^2 until time 2, where the branch of v = sqrt(h) ends"
+  Real h(start=1, fixed=true), v(start=1);
+equation
+  v^2 = {h};
+  der(h) = -v;
+end Emptied;
+"""
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+@pytest.mark.parametrize("h", ["h", "max(h, 0)", "noEvent(max(h, 0))"])
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6, 1e-8])
+def test_a_tank_does_not_fill_itself_from_the_other_root(tmp_path: Path, rtol: float, h: str, solver: str) -> None:
+    """Both roots of v^2 = h meet where h touches zero. Behind that h may rest at what a step errs by, until the branch
+    is known to have ended; it does not rise by the other root."""
+    model = compiled(tmp_path, EMPTIED.format(h=h))
+    result = runtime.simulate(model, solver=solver, stop=4.0, rtol=rtol, interval=0.0)
+    assert result.complete or (result.failure.line == 4 and result.failure.time > 2 - 0.01)
+    level = np.maximum(1 - result.time / 2, 0) ** 2
+    assert result["h"] == pytest.approx(level, abs=10 * rtol)
+
+
+PASSES = """model Passes "A product whose factor changes its sign: its root turns by itself, and no other is near"
+  Real m, h(start=1), y(start=0, fixed=true), g(start=1);
+equation
+  m = cos(time);
+  m*(h - sin(g)) = 0;
+  g = 1 + 0.1*h^2;
+  der(y) = h;
+end Passes;
+"""
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+def test_a_root_that_turns_by_itself_goes_on(tmp_path: Path, solver: str) -> None:
+    result = runtime.simulate(compiled(tmp_path, PASSES), solver=solver, stop=4.0, rtol=1e-6)
+    assert result.complete, result.failure
+    assert np.ptp(result["h"]) < 1e-9
+    assert result["y"][-1] == pytest.approx(4 * result["h"][0], rel=1e-6)
