@@ -43,6 +43,7 @@ def test_a_regression_equals_least_squares_on_all_columns_at_once() -> None:
     every = regression.add(groups)
     several = [(0,), (1,), (9,)]
     found = regression._deviances(several, every)
+    _strains_are_those_of_the_columns(regression, [(a, b) for (a,) in several for b in (0, 1, 3, 30) if a != b])
     for k, share in enumerate(DISCREPANCIES):
         white = Whitener(pieces, replace(LATENT, size=share * LATENT.size))
         data = white([p.data for p in pieces])
@@ -57,6 +58,14 @@ def test_a_regression_equals_least_squares_on_all_columns_at_once() -> None:
                 matrix = np.column_stack([belief, columns])
                 left = target - matrix @ np.linalg.lstsq(matrix, target, rcond=1e-10)[0]
                 assert deviances[other] == pytest.approx(left @ left + white.logdet, rel=1e-6)
+
+
+def _strains_are_those_of_the_columns(regression: Regression, pairs: list[tuple[int, int]]) -> None:
+    """In either order; where a pair was not looked at, its columns are found."""
+    known = [regression.strain(pair) for pair in pairs] + [regression.strain(pair[::-1]) for pair in pairs]
+    regression.forget()
+    regression._strains.clear()
+    assert known == pytest.approx([regression.strain(pair) for pair in pairs] * 2, rel=1e-6)
 
 
 def _moving(p: Piece) -> Piece:

@@ -22,6 +22,7 @@ class Bases:
 
     whole: np.ndarray  # (rows, all)
     sizes: list[int]  # of the bases
+    triangles: list[np.ndarray]  # (size, terms) that each is multiplied by
 
 
 class Metric:
@@ -73,10 +74,10 @@ class Metric:
 
     def bases(self, chosen: list[np.ndarray]) -> Bases:
         """Bases of several choices of columns."""
-        bases = [np.linalg.qr(columns)[0] for columns in chosen]
+        bases, triangles = zip(*map(np.linalg.qr, chosen), strict=True)
         left = [self.target - basis @ (basis.T @ self.target) for basis in bases]
         whole = np.column_stack([x for pair in zip(bases, left, strict=True) for x in pair])
-        return Bases(whole, [basis.shape[1] for basis in bases])
+        return Bases(whole, [basis.shape[1] for basis in bases], list(triangles))
 
     def transposed(self, bases: Bases, pieces: list[Piece], column: int, every: int) -> list[np.ndarray]:
         """(n, all) on each recording: courses whose products with others are those of bases with what those do."""
@@ -99,6 +100,20 @@ class Metric:
             found.append(float(left @ left) + self.logdet - taken)
             at += size + 1
         return np.array(found)
+
+    def together(self, bases: Bases, n: int, other: int, products: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """(coefficients of choice n, of another group), whose products with the bases are (all, terms): none of those of
+        the other where it is no direction of its own."""
+        size, at = bases.sizes[n], sum(bases.sizes[:n]) + n
+        crossed, right, gram = products[at : at + size], products[at + size], self.triangles[other]
+        gram = gram.T @ gram
+        rest = gram - crossed.T @ crossed
+        scale = np.sqrt(np.maximum(np.diagonal(gram), 1e-300))
+        own = np.trace(rest) > DEPENDENT * np.trace(gram)
+        found = np.linalg.lstsq(rest / np.outer(scale, scale), right / scale, rcond=1e-9)[0] / scale
+        found = found if own else np.zeros(len(right))
+        onto = bases.whole[:, at : at + size].T @ self.target
+        return least_squares(bases.triangles[n], onto - crossed @ found), found
 
     def _taken_by(self, numbers: Sequence[int], right: np.ndarray, crossed: np.ndarray) -> np.ndarray:
         """Square sums that groups take away beside a basis, from their products with the target and with that basis."""

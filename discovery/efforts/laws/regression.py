@@ -15,6 +15,7 @@ import numpy as np
 
 from lacuna.discovery.efforts.guide import Guided
 from lacuna.discovery.efforts.latent.chains import Piece
+from lacuna.discovery.efforts.laws.beside import Beside
 from lacuna.discovery.efforts.laws.metric import Bases, Metric, least_squares
 from lacuna.discovery.fit.solver import time_limit
 from lacuna.discovery.law.law import Law, Site
@@ -51,6 +52,7 @@ class Regression:
         self.driven = np.abs(guided.mean)
         self.alone = np.zeros((len(self.metrics), 0))  # (metrics, groups) deviances of each group alone
         self._strains: dict[tuple[int, ...], float] = {}
+        self._beside: list[Beside] = []  # pairs that were looked at
         self._kept: dict[int, list[np.ndarray]] = {}  # (rows, terms) in each metric, of the groups that were used last
 
     def add(self, groups: list[Group], wanted: bool = False) -> range:
@@ -106,6 +108,7 @@ class Regression:
     def forget(self) -> None:
         """Keep no columns: no more is asked for the time being."""
         self._kept.clear()
+        self._beside.clear()
 
     def _columns(self, numbers: Sequence[int]) -> list[np.ndarray]:
         """(rows, terms) of some groups, of no more than a block's terms, in each metric."""
@@ -126,8 +129,8 @@ class Regression:
             products = self._products(bases, blocks)
         else:
             products = [b.whole.T @ columns for b, columns in zip(bases, self._columns(others), strict=True)]
-        found = (m.deviances(own, others, p) for m, own, p in zip(self.metrics, bases, products, strict=True))
-        return np.stack(list(found), axis=1)
+        self._beside.append(Beside(self.metrics, several, others, bases, products))
+        return self._beside[-1].deviances
 
     def _products(self, bases: list[Bases], blocks: list[list[int]]) -> list[np.ndarray]:
         """(all, terms) in each metric: products of bases with the columns of groups, which are not found for that:
@@ -184,7 +187,24 @@ class Regression:
         it. Where an effort of any course at this place leaves them further off (what else is missing drives them), a
         law may as well."""
         if chosen not in self._strains:
-            k = self._best_metric(chosen)
-            moved = np.abs(self.metrics[k].parameters(chosen, self._solved(k, chosen)))
+            k, found = self._among_pairs(chosen) or self._alone(chosen)
+            moved = np.abs(self.metrics[k].parameters(chosen, found))
             self._strains[chosen] = float(np.max(moved / np.maximum(NEAR, FURTHER * self.driven), initial=0.0))
         return self._strains[chosen]
+
+    def _alone(self, chosen: tuple[int, ...]) -> tuple[int, np.ndarray]:
+        """(metric in which the groups leave least, their coefficients there)."""
+        k = self._best_metric(chosen)
+        return k, self._solved(k, chosen)
+
+    def _among_pairs(self, chosen: tuple[int, ...]) -> tuple[int, np.ndarray] | None:
+        """The same of two groups, where one was looked at beside the other."""
+        first, last = chosen[:-1], chosen[-1]
+        for beside in self._beside if len(chosen) == 2 else ():
+            if beside.holds(first, last):
+                k, own, other = beside.solution(first, last)
+                return k, np.concatenate([own, other])
+            if beside.holds((last,), first[0]):
+                k, own, other = beside.solution((last,), first[0])
+                return k, np.concatenate([other, own])
+        return None
