@@ -102,8 +102,8 @@ class Metric:
         return np.array(found)
 
     def together(self, bases: Bases, n: int, other: int, products: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """(coefficients of choice n, of another group), whose products with the bases are (all, terms): of the other none
-        where it is no direction of its own."""
+        """(coefficients of choice n, of another group), whose products with the bases are (all, terms): none of the
+        other where it is no direction of its own."""
         size, at = bases.sizes[n], sum(bases.sizes[:n]) + n
         crossed, right, gram = products[at : at + size], products[at + size], self.triangles[other]
         gram = gram.T @ gram
