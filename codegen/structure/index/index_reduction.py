@@ -74,16 +74,23 @@ def base_name(n: Expr) -> str:
 
 
 class TimeDerivative:
-    """d/dt of equations, where `still` does not move. The derivative of an input is not known, and refused."""
+    """d/dt of equations, where `still` does not move. The derivative of an input is not known: `require_known` refuses
+    that, once all inputs are known that would have one."""
 
     def __init__(self, model: flat.FlatModel, still: Collection[Expr] = ()):
         self._model, self._still = model, still
         self._row: Row | None = None
+        self._refused: dict[str, Diagnostic] = {}  # by the input, the first first
         self._differentiate = Differentiator(self._seed, rules=model.derivatives)
 
     def row(self, row: Row) -> Row:
         self._row = row
         return Row(self._differentiate(row.lhs), self._differentiate(row.rhs), row.source, integral=row)
+
+    def require_known(self) -> None:
+        """Raises S004, about all inputs that would have to be differentiated, where there are such."""
+        for refusal in self._refused.values():
+            raise replace(refusal, about=tuple(self._refused))
 
     def _seed(self, n: Expr) -> Expr:
         if n.op == "time":
@@ -92,19 +99,17 @@ class TimeDerivative:
             return ZERO
         v = self._model.variables[base_name(n)]
         if v.causality == "input":
-            raise Diagnostic(
-                "S004", f"the input {v.name} would have to be differentiated: `{self._row.text}` constrains states",
-                self._row.source.span,
-                "let the input act through an inertia or a filter, or add its derivative as an input",
-                [(v.span, f"{v.name} is declared here")],
-                about=self._inputs(),
-            )  # fmt: skip
+            self._refused.setdefault(v.name, self._refusal(v))
+            return ZERO
         return der(n) if v.variability == flat.CONTINUOUS else ZERO
 
-    def _inputs(self) -> tuple[str, ...]:
-        """Those of the row."""
-        read = [self._model.variables[base_name(n)] for n in self._row.leaves if n.op in ("var", "der")]
-        return tuple(v.name for v in read if v.causality == "input")
+    def _refusal(self, v: flat.Variable) -> Diagnostic:
+        return Diagnostic(
+            "S004", f"the input {v.name} would have to be differentiated: `{self._row.text}` constrains states",
+            self._row.source.span,
+            "let the input act through an inertia or a filter, or add its derivative as an input",
+            [(v.span, f"{v.name} is declared here")],
+        )  # fmt: skip
 
 
 def _still(rows: list[Row]) -> set[Expr]:
@@ -141,9 +146,12 @@ class _Pantelides:
         return sorted(found, key=lambda n: (self._position[base_name(n)], n.op))
 
     def run(self) -> list[Row]:
-        for row in list(self.rows):
-            while row is not None and not self._augment(row):
-                row = self.derivative_of[row]
+        try:
+            for row in list(self.rows):
+                while row is not None and not self._augment(row):
+                    row = self.derivative_of[row]
+        finally:
+            self._differentiate.require_known()
         return self.rows
 
     def _augment(self, start: Row) -> bool:
