@@ -21,7 +21,7 @@ from lacuna.discovery.efforts.find import Found, places_of
 from lacuna.discovery.efforts.switches import switched, switches
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.explanation.moved import sensor_instead
-from lacuna.discovery.fit.evidence import astray, is_noise, within_instruments
+from lacuna.discovery.fit.evidence import astray, is_noise
 from lacuna.discovery.fit.fit import believed, carried, falling_bandwidths, linearised
 from lacuna.discovery.fit.lead import ROUGH, Lead, fit_believed
 from lacuna.discovery.fit.machine import Machine
@@ -31,7 +31,7 @@ from lacuna.discovery.fit.tracking import trackable
 from lacuna.discovery.law.beyond import explain_beyond
 from lacuna.discovery.law.locate import effort_at, locate, place_of
 from lacuna.discovery.law.open_world import begun_open, explain_open
-from lacuna.discovery.law.together.several import go_on, where_unknown
+from lacuna.discovery.law.together.nearby import go_on_nearby
 from lacuna.discovery.naming.comparison import MIN_GAIN
 from lacuna.discovery.naming.dips import explored, is_smooth
 from lacuna.discovery.naming.judge import judge, noise_floor, try_judge
@@ -163,9 +163,7 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
         held = unbegun
         if search.lost():
             search, held = _anew(result, search, unbegun, shafts, progress)
-        if unknown := where_unknown(search, library, progress):
-            go_on(search, library, progress, unknown)
-        if not (unknown and within_instruments(search.fit)):
+        if not go_on_nearby(search, library, progress):
             explain_beyond(search, held, progress)
         unbegun = held if search.amendment.trackers or not search.lead.direct else unbegun
         explain_open(search, unbegun, library, progress, places_known, located)

@@ -56,6 +56,7 @@ class Search:
     restarts: bool = False  # whether a search that has lost its way is begun anew
     left: Contest | None = None  # where its most promising hypotheses had lost their way
     blameless: frozenset[str] = frozenset()  # variables whose sensors are none of the first findings
+    near: frozenset[str] | None = None  # locations at which effects are looked for; None: at all
 
     def run(self, progress: Progress, most: int = MAX_FINDINGS) -> None:
         """Add findings, `most` of them, until what is left is noise, or nothing more pays."""
@@ -108,7 +109,8 @@ class Search:
     def _begun(self, progress: Progress) -> Contest:
         """The contest of all hypotheses, its most promising ones fitted."""
         every = enumerate_attachments(self.case, self.amendment.structure, self.effects, self.amendment)
-        attachments = [a for a in every if self.findings or a.variable not in self.blameless]
+        blamed = [a for a in every if self.findings or a.variable not in self.blameless]
+        attachments = [a for a in blamed if self.near is None or a.location in self.near]
         held = self.lead.hold(self.fit)
         contest = Contest(held.machine.case, held, self.amendment, attachments, progress)
         contest.lead()
@@ -243,11 +245,8 @@ class Search:
         after = try_judge(polished.machine, polished.point)
         if after is not None and not self._tells_better_than(polished):
             progress(f"{best.attachment.label} instead of {finding.ranked.attachment.label}")
-            left(
-                finding.ranked.attachment.label,
-                "comparison",
-                f"{best.attachment.label} is better beside what was found",
-            )
+            better = f"{best.attachment.label} is better beside what was found"
+            left(finding.ranked.attachment.label, "comparison", better)
             best.fit = polished
             self.findings[k] = replace(finding, ranked=best, naming=naming)
             self.take([*others, best.attachment], polished, after)

@@ -16,7 +16,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.catalogue.trace import left
-from lacuna.discovery.efforts.find import INDIFFERENT, Found, add_laws, alike, find, places_of, simplest
+from lacuna.discovery.efforts.find import INDIFFERENT, Found, add_laws, find, places_of, simplest
 from lacuna.discovery.efforts.located import Site
 from lacuna.discovery.fit.evidence import pays, within_instruments
 from lacuna.discovery.fit.fit import Fit
@@ -35,23 +35,6 @@ from lacuna.discovery.naming.search import MAX_FINDINGS, Search
 Progress = Callable[[str], None]
 
 
-def where_unknown(search: Search, library: Library, progress: Progress) -> Found | None:
-    """The places of what an effect of the catalogue leaves, if an effort leaves clearly less there than at any place of
-    which the catalogue knows effects, its sensors among them: these could but stand for what is missing elsewhere."""
-    sensors = all(f.ranked.attachment.variable for f in search.findings)
-    if sensors or not search.lead.direct or search.amendment.trackers or within_instruments(search.fit):
-        return None
-    found = places_of(search.case, search.amendment, search.fit, library, progress)
-    efforts = simplest(found.sites)
-    if not efforts or _is_of_form(efforts, _elsewhere(search.amendment)):
-        return None
-    effects = enumerate_attachments(search.case, search.amendment.structure, search.effects, search.amendment)
-    locations = {a.location for a in effects}
-    known = [s for s in found.sites if s.place is None or any(map(s.place.named, locations))]
-    near = [s for s in known if alike(s, efforts[0]) or efforts[0].gain - s.gain < INDIFFERENT]
-    return None if near else found
-
-
 def go_on(search: Search, library: Library, progress: Progress, places: Found | None = None) -> None:
     """Add laws at other places while the model leaves more than instruments are off by and they pay; find earlier ones
     anew, and drop what these do without. `places` of what is left now may be known."""
@@ -59,8 +42,8 @@ def go_on(search: Search, library: Library, progress: Progress, places: Found | 
     while len(search.findings) < MAX_FINDINGS and not within_instruments(search.fit):
         progress("looking for a law at another place")
         found = places or places_of(search.case, search.amendment, search.fit, library, progress)
-        free, places = _elsewhere(search.amendment), None
-        if _is_of_form(found.sites, free):
+        free, places = elsewhere(search.amendment), None
+        if is_of_form(found.sites, free):
             break
         add_laws(found, search.case, search.amendment, search.fit, progress, free)
         law = found.laws[0] if found.laws else None
@@ -253,7 +236,7 @@ def errors_of_sensors(
     return compete(search.case, candidates, base, progress=progress)
 
 
-def _is_of_form(sites: list[Site], free: Callable[[Site], bool]) -> bool:
+def is_of_form(sites: list[Site], free: Callable[[Site], bool]) -> bool:
     """Whether an effort where a law is already tells what is left better than one at any place that is free: that law
     has another form than what is missing there, and laws elsewhere would stand for the difference."""
     efforts = simplest(sites)
@@ -261,7 +244,7 @@ def _is_of_form(sites: list[Site], free: Callable[[Site], bool]) -> bool:
     return max((s.gain for s in efforts if not free(s)), default=-np.inf) > best + INDIFFERENT
 
 
-def _elsewhere(amendment: Amendment) -> Callable[[Site], bool]:
+def elsewhere(amendment: Amendment) -> Callable[[Site], bool]:
     """Places that have no law yet, nor share a balance with one: both would say what is missing there."""
     taken = {a.location for a in amendment.attachments}
 
