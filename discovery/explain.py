@@ -13,9 +13,9 @@ from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.catalogue.modifications import unsubscripted
 from lacuna.discovery.catalogue.trace import traced
 from lacuna.discovery.experiment.proposal import propose
+from lacuna.discovery.explanation.conclusion import conclude
 from lacuna.discovery.explanation.contenders import contenders
 from lacuna.discovery.explanation.explanation import Clock, Explanation
-from lacuna.discovery.explanation.verdict import conclude
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.time_limit import within

@@ -1,4 +1,4 @@
-"""The verdict: from the findings, what the fitted model leaves, and the parameters that left their beliefs."""
+"""The verdict: from the findings and what the fitted model leaves."""
 
 from __future__ import annotations
 
@@ -19,7 +19,6 @@ from lacuna.discovery.fit.evidence import (
     astray,
     like_noise,
     nearly_noise,
-    outside_belief,
     pays,
     repeats,
     settled,
@@ -28,11 +27,11 @@ from lacuna.discovery.fit.evidence import (
 )
 from lacuna.discovery.fit.fit import Fit, nrmse
 from lacuna.discovery.fit.solver.free import pulls
-from lacuna.discovery.fit.zeros import without_zeros, zeros_of
+from lacuna.discovery.fit.zeros import zeros_of
 from lacuna.discovery.law.law import law_at
 from lacuna.discovery.naming.comparison import TIE, Ranked, price, score
 from lacuna.discovery.naming.foretold import foretold
-from lacuna.discovery.naming.judge import Judgement, try_judge
+from lacuna.discovery.naming.judge import Judgement
 from lacuna.discovery.naming.name import AS_LIKELY, Finding
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.runtime import SimulationError
@@ -40,21 +39,8 @@ from lacuna.runtime import SimulationError
 LEAST_TAKEN = 0.2  # of the error above noise on unseen recordings, that findings must take away
 
 
-def conclude(result: Explanation) -> None:
-    """The verdict, from the findings, the whiteness of what is left and the believed parameters: as they are beside the
-    zeros of the sensors, which are what the diagnosis tells."""
-    _conclude(result)
-    if result.verdict == "undetermined":
-        return
-    if result.lead.direct:
-        machine, result.final = result.final.machine, without_zeros(result.final)
-        if not result.findings:
-            result.base, result.after = result.final, try_judge(machine, result.final.point) or result.after
-    if result.verdict == "consistent" and outside_belief(result.final):
-        result.verdict = "parameters"
-
-
-def _conclude(result: Explanation) -> None:
+def decide(result: Explanation) -> None:
+    """The verdict, from the findings and the whiteness of what is left."""
     if result.instead and not _equations_may_be_wrong(result) and _holds(result):
         result.verdict = "missing_physics"
         return

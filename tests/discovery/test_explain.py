@@ -18,8 +18,8 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.explain import explain, judge_written, write_amended
 from lacuna.discovery.explanation import diagnosis, report
+from lacuna.discovery.explanation.conclusion import conclude
 from lacuna.discovery.explanation.explanation import Explanation
-from lacuna.discovery.explanation.verdict import conclude
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.intervals import standard_errors
 from lacuna.discovery.fit.lead import fit_believed

@@ -32,7 +32,7 @@ from lacuna.discovery.law.empirical_law import fitted_law
 from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law_terms import Group
 from lacuna.discovery.law.together.pairs import Place, paired
-from lacuna.discovery.law.together.several import _is_of_form, _taken_out, find_long_anew, finding, simplify
+from lacuna.discovery.law.together.several import _taken_out, find_long_anew, finding, is_of_form, simplify
 from lacuna.discovery.naming.candidate_fit import without
 from lacuna.discovery.naming.foretold import DRAWS, foretold
 from lacuna.discovery.naming.screen import Candidate
@@ -116,7 +116,7 @@ def test_what_is_told_best_where_a_law_is_already_is_that_laws_form() -> None:
     def left(here: float, elsewhere: float) -> bool:
         place = SimpleNamespace(sites=[SimpleNamespace(kind="node")])
         sites = [Site("slide", "effort", here, 0.9, place), Site("valve", "effort", elsewhere, 0.8, place)]
-        return _is_of_form(sites, lambda site: site.location != "slide")
+        return is_of_form(sites, lambda site: site.location != "slide")
 
     assert left(here=1000.0, elsewhere=900.0)
     assert not left(here=1000.0, elsewhere=998.0)

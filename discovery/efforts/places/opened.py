@@ -15,10 +15,8 @@ from functools import cached_property
 import numpy as np
 
 from lacuna.codegen import flat
-from lacuna.codegen.cache import CompilerError
 from lacuna.codegen.compile import translate
 from lacuna.codegen.dae.prepared import Prepared
-from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.symbolic.expr import var
 from lacuna.codegen.symbolic.leaves import leaves
@@ -32,7 +30,7 @@ from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.linear import Linear
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.places.families import families
-from lacuna.discovery.efforts.places.insertion import effort_at, probe
+from lacuna.discovery.efforts.places.openable import openable, with_probes
 from lacuna.discovery.efforts.places.place import (
     ORDER,
     Place,
@@ -46,11 +44,9 @@ from lacuna.discovery.efforts.places.place import (
 from lacuna.discovery.efforts.places.reading import read
 from lacuna.discovery.efforts.places.sites import Site, exchanges, renames, varying
 from lacuna.discovery.fit.machine import Machine, richer
-from lacuna.discovery.fit.solver.time_limit import check
 from lacuna.units import Unit
 
 RENAMES = "it only gives a name to what is recorded: an error there is its sensor's"
-RIGID = "what acts there would have to be differentiated: states depend on each other by it"
 BALANCES = ("node", "equation", "branch", "edge")  # kinds of places in one balance, or between two
 ALIKE = 1e-5  # of a direction, by which two places may differ: rounding of the linearisation
 
@@ -251,8 +247,8 @@ def opened(
     acting = varying(found.places, _read(believed, told), "input")
     elsewhere = set(told) - {s.label for s in acting}
     closed += [(n, "it is read elsewhere than in equations of the class") for n in sorted(elsewhere)]
-    sites = _openable(case, amendment, [*found.places, *between, *vary, *acting], closed)
-    whole = _with_probes(amendment, sites)
+    sites = openable(case, amendment, [*found.places, *between, *vary, *acting], closed)
+    whole = with_probes(amendment, sites)
     try:
         machine = richer(case, whole, base) if base else Machine(case, whole)
     except CaseError as reason:  # it has other states than those whose first values are known
@@ -276,35 +272,3 @@ def _read(believed: Prepared, names: Iterable[str]) -> dict[str, int]:
     plain = [n for n in names if n in variables and "[" not in n and n not in bound]
     reads = Counter(leaf for e in believed.declared.equations for leaf in leaves(e.lhs) | leaves(e.rhs))
     return {n: reads[var(n)] for n in plain}
-
-
-def _openable(case: Case, amendment: Amendment, sites: list[Site], closed: list[tuple[str, str]]) -> list[Site]:
-    """Sites where an input can act, tried together, without those that a refusal names, and, where it names none and
-    that is no model, in halves; the others are `closed`."""
-    check()
-    try:
-        translate(str(write_source(_with_probes(amendment, sites))), search_path=case.search_path, units=UNITS)
-    except (Diagnostic, CompilerError) as reason:
-        rigid = _named_in(reason, len(sites))
-        closed += [(sites[k].label, RIGID) for k in sorted(rigid)]
-        left = [s for k, s in enumerate(sites) if k not in rigid]
-        if rigid:
-            return _openable(case, amendment, left, closed) if left else []
-        if len(sites) == 1:
-            closed.append((sites[0].label, str(reason).split(": error", 1)[-1].split("\n")[0]))
-            return []
-        halves = (sites[: len(sites) // 2], sites[len(sites) // 2 :])
-        return [site for half in halves for site in _openable(case, amendment, half, closed)]
-    return sites
-
-
-def _named_in(reason: Diagnostic | CompilerError, count: int) -> set[int]:
-    """Numbers of the sites of `count` whose inputs would have to be differentiated."""
-    if not isinstance(reason, Diagnostic) or reason.code != "S004":
-        return set()
-    return {k for k in range(count) if effort_at(k) in reason.about}
-
-
-def _with_probes(amendment: Amendment, sites: list[Site]) -> Amendment:
-    probes, inputs = zip(*(probe(site, k) for k, site in enumerate(sites)), strict=True) if sites else ((), ())
-    return replace(amendment, attachments=[*amendment.attachments, *probes], inputs=tuple(inputs))
