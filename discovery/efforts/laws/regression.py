@@ -165,7 +165,7 @@ class Regression:
         return (len(group.texts) + len(group.shapes)) * float(np.log(self.rows)) + 2 * self._picks[group.texts]
 
     def coefficients(self, chosen: tuple[int, ...]) -> np.ndarray:
-        return self._solved(self._best_metric(chosen), chosen)
+        return self._from_columns(chosen)[1]
 
     def explained(self, chosen: tuple[int, ...]) -> np.ndarray:
         """(rows,) what the groups explain, where a law may leave most."""
@@ -178,23 +178,20 @@ class Regression:
             return least_squares(metric.triangles[chosen[0]], metric.onto[chosen[0]])
         return least_squares(self._columns(chosen)[k], metric.target)
 
-    def _best_metric(self, chosen: tuple[int, ...]) -> int:
-        return int(np.argmin(self._deviances([chosen[:-1]], chosen[-1:])))
-
     def strain(self, chosen: tuple[int, ...]) -> float:
         """How far the parameters go from what is believed of them, in parts of how far they may. To first order
         anything can be had by parameters that no machine has: a term of the balance taken away whole, its inertia with
         it. Where an effort of any course at this place leaves them further off (what else is missing drives them), a
         law may as well."""
         if chosen not in self._strains:
-            k, found = self._among_pairs(chosen) or self._alone(chosen)
+            k, found = self._among_pairs(chosen) or self._from_columns(chosen)
             moved = np.abs(self.metrics[k].parameters(chosen, found))
             self._strains[chosen] = float(np.max(moved / np.maximum(NEAR, FURTHER * self.driven), initial=0.0))
         return self._strains[chosen]
 
-    def _alone(self, chosen: tuple[int, ...]) -> tuple[int, np.ndarray]:
+    def _from_columns(self, chosen: tuple[int, ...]) -> tuple[int, np.ndarray]:
         """(metric in which the groups leave least, their coefficients there)."""
-        k = self._best_metric(chosen)
+        k = int(np.argmin(self._deviances([chosen[:-1]], chosen[-1:])))
         return k, self._solved(k, chosen)
 
     def _among_pairs(self, chosen: tuple[int, ...]) -> tuple[int, np.ndarray] | None:

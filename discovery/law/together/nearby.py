@@ -14,7 +14,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.find import INDIFFERENT, Found, alike, places_of, simplest
 from lacuna.discovery.fit.evidence import within_instruments
-from lacuna.discovery.law.together.several import elsewhere, go_on, is_of_form, paid
+from lacuna.discovery.law.together.several import elsewhere, go_on, is_of_form, take_if_less
 from lacuna.discovery.naming.search import Search
 
 Progress = Callable[[str], None]
@@ -32,12 +32,10 @@ def go_on_nearby(search: Search, library: Library, progress: Progress) -> bool:
     if not trials or not within_instruments(trials[0].fit):
         trials.append(_copied(search))
         go_on(trials[-1], library, progress, found)
-    correlation = min((t.fit for t in trials), key=lambda f: f.deviance()).correlation()
-    best = min(trials, key=lambda t: paid(t, search.fit, correlation))
-    if len(best.findings) > len(search.findings):
-        search.findings[:], search.namings[:] = best.findings, best.namings
-        search.take(best.amendment.attachments, best.fit, best.judgement)
-        search.reason = ""
+    before, known = search.fit, len(search.findings)
+    for trial in (t for t in trials if len(t.findings) > known):
+        if take_if_less(search, trial, before):
+            search.namings[:] = trial.namings
     return within_instruments(search.fit)
 
 
