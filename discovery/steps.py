@@ -21,7 +21,7 @@ from lacuna.discovery.efforts.find import Found, places_of
 from lacuna.discovery.efforts.switches import switched, switches
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.explanation.moved import sensor_instead
-from lacuna.discovery.fit.evidence import astray, is_noise
+from lacuna.discovery.fit.evidence import astray, common_correlation, is_noise
 from lacuna.discovery.fit.fit import believed, carried, falling_bandwidths, linearised
 from lacuna.discovery.fit.lead import ROUGH, Lead, fit_believed
 from lacuna.discovery.fit.machine import Machine
@@ -244,7 +244,7 @@ def _anew(
         direct.resume(progress)
         if not direct.lost():
             return direct, unbegun
-    correlation = search.fit.correlation()
+    correlation = common_correlation([search.fit, direct.fit])
     if not search.findings or search.fit.deviance(correlation) > direct.fit.deviance(correlation) - MIN_GAIN:
         return direct, held
     if not astray(search.fit):

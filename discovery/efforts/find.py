@@ -19,11 +19,11 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.trace import left, looking
 from lacuna.discovery.efforts.instruments import colour_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
-from lacuna.discovery.efforts.law_at import TRIED, law_at, terms_of
+from lacuna.discovery.efforts.law_at import TRIED, law_at
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.efforts.places.sites import SEVERAL
-from lacuna.discovery.fit.evidence import LEFT, nearly_noise, settled
+from lacuna.discovery.fit.evidence import LEFT, common_correlation, nearly_noise, settled
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.naming.comparison import TIE, rival_score, said
 from lacuna.discovery.naming.screen import Candidate
@@ -86,7 +86,7 @@ def add_laws(
         found.tried.add(site.location)
         looking(f"a law at {site.location}")
         proposal, single = law_at(case, amendment, base, found.locator, site, progress, wide)
-        if behind and proposal and terms_of(proposal) > 1 and found.laws and settled(found.laws[0].fit):
+        if behind and proposal and proposal.law.terms > 1 and found.laws and settled(found.laws[0].fit):
             left(
                 said(proposal.candidate), "comparison", "no shorter than one that leaves noise where more is explained"
             )
@@ -94,17 +94,20 @@ def add_laws(
             _put(found.laws, proposal and proposal.candidate, base)
         _put(found.single, single, base)
         if proposal is not None and found.laws[0] is proposal.candidate:
-            found.short = terms_of(proposal) == 1
+            found.short = proposal.law.terms == 1
 
 
 def _to_try(efforts: list[Site], most: int) -> list[Site]:
     """The first `most` places, and behind them up to as many of the same components: of two equations of one component
-    a law may be short in the one and long in the other."""
+    a law may be short in the one and long in the other. Families are beside them: with an effort for each member they
+    explain no less than any one of these, whichever it is that lacks something."""
 
     def parts(site: Site) -> set[str]:
         return {s.instance or s.label for s in site.place.sites}
 
-    first, behind = efforts[:most], efforts[most:]
+    alone = [k for k, s in enumerate(efforts) if not is_family(s)][:most]
+    count = alone[-1] + 1 if len(alone) == most else len(efforts)
+    first, behind = efforts[:count], efforts[count:]
     near = set[str]().union(*map(parts, first))
     return [*first, *[s for s in behind if parts(s) & near][:most]]
 
@@ -113,6 +116,11 @@ def alike_first(found: Found) -> int:
     """How many of the places to be tried an effort of any course does not tell from the best one."""
     efforts = simplest(found.sites)
     return sum(alike(site, efforts[0]) for site in efforts[:TRIED])
+
+
+def is_family(site: Site) -> bool:
+    """Whether a place is several at once, with an effort of its own in each."""
+    return site.place is not None and bool(site.place.sites[0].members)
 
 
 def alike(site: Site, best: Site) -> bool:
@@ -167,7 +175,7 @@ def _put(laws: list[Candidate], law: Candidate | None, base: Fit) -> None:
     if law is None:
         return
     laws.append(law)
-    correlation = min((c.fit for c in laws), key=lambda f: f.deviance()).correlation()
+    correlation = common_correlation(c.fit for c in laws)
     scores = {id(c): rival_score(c, base, correlation) for c in laws}
     laws.sort(key=lambda c: scores[id(c)])
     alone = [c for c in laws if not c.attachment.site.members]

@@ -14,7 +14,7 @@ from lacuna.discovery.efforts.laws.begun import begun_at
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.laws.variants import varied
 from lacuna.discovery.efforts.located import Locator, Site
-from lacuna.discovery.fit.evidence import astray, settled
+from lacuna.discovery.fit.evidence import astray, common_correlation, settled
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.lead import joined
 from lacuna.discovery.law.empirical_law import race, simplified, unfitted
@@ -61,7 +61,7 @@ def law_at(
     if best is None:
         return None, None
     best = _in_its_balance(fitted, best, base, site.location)
-    apart = best is not single and terms_of(best) > 1
+    apart = best is not single and best.law.terms > 1
     return simplified(case, amendment, base, best), single.candidate if apart and single else None
 
 
@@ -109,11 +109,6 @@ def _offered(
         return
 
 
-def terms_of(proposal: Proposal) -> int:
-    """Groups of terms beside a constant: zero of a temperature is anywhere."""
-    return sum(g.texts != ("1",) for g in proposal.law.groups)
-
-
 def _best(fitted: list[Proposal], base: Fit) -> Proposal | None:
     return min(fitted, key=_scorer(fitted, base)) if fitted else None
 
@@ -138,5 +133,5 @@ def _in_its_balance(fitted: list[Proposal], best: Proposal, base: Fit, location:
 
 def _scorer(fitted: list[Proposal], base: Fit) -> Callable[[Proposal], float]:
     """Deviance and price of a law, samples discounted alike."""
-    correlation = min((p.candidate.fit for p in fitted), key=lambda f: f.deviance()).correlation()
+    correlation = common_correlation(p.candidate.fit for p in fitted)
     return lambda p: rival_score(p.candidate, base, correlation)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from lacuna.discovery.experiment.separation import Rival, released
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.explanation.wording import at
+from lacuna.discovery.fit.evidence import common_correlation
 from lacuna.discovery.law.law import law_at
 from lacuna.discovery.naming.comparison import Ranked, price
 from lacuna.discovery.naming.name import Finding
@@ -66,7 +67,7 @@ def _tried(result: Explanation) -> list[Ranked]:
     ranked = [*found.values(), *(Ranked(law, law.fit, 0.0) for law in laws)]
     if not ranked:
         return []
-    correlation = min((r.fit for r in ranked), key=lambda f: f.deviance()).correlation()
+    correlation = common_correlation(r.fit for r in ranked)
 
     def evidence(r: Ranked) -> float:
         return r.fit.deviance(correlation) + price(len(r.candidate.free), base, correlation)

@@ -17,6 +17,7 @@ from lacuna.discovery.explanation.wording import at
 from lacuna.discovery.fit.evidence import (
     CLEARLY,
     astray,
+    common_correlation,
     like_noise,
     nearly_noise,
     pays,
@@ -272,7 +273,7 @@ def _rival_law(result: Explanation) -> Candidate | None:
     laws = [law for law in result.opened.laws if any(p.named(law.attachment.location) for p in places)]
     if not laws:
         return None
-    correlation = laws[0].fit.correlation()
+    correlation = common_correlation([laws[0].fit, final])
     found = final.deviance(correlation) - base.deviance(correlation)
     found += price(len(final.estimate.free) - len(base.estimate.free), base, correlation)
     picked = sum(2 * f.ranked.candidate.pick for f in result.findings)

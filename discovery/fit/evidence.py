@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,6 +25,12 @@ CLEARLY = 0.8  # times the NRMSE of the signals in their geometric mean, from wh
 TOLERANCE = 0.04  # of the noise level, within which it counts as known
 COLOURED = 5.0  # RMS, in units of the noise as estimated, that coloured noise may have
 TAILS = 2.0  # RMS over what the median says it is, from which a residual is no noise: a misfit at some moments
+
+
+def common_correlation(fits: Iterable[Fit]) -> dict[str, float]:
+    """Samples that carry the information of one, by which fits are compared: those of the best of them. What colours
+    the residual of a poorer one is what it lacks, and discounts just the signals that tell so."""
+    return min(fits, key=Fit.deviance).correlation()
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from lacuna.discovery.fit.evidence import like_noise, nearly_noise, pays
+from lacuna.discovery.fit.evidence import common_correlation, like_noise, nearly_noise, pays
 from lacuna.discovery.fit.fit import Fit, carried
 from lacuna.discovery.law.empirical_law import GROUPS, find
 from lacuna.discovery.naming.comparison import MIN_GAIN, Ranked, price, score
@@ -70,7 +70,7 @@ def _instead(search: Search, unbegun: Search, held: Fit, law: Candidate) -> bool
     """One law for all of the misfit of the believed model, in place of every finding."""
     if not (nearly_noise(law.fit) or like_noise(law.fit)):
         return False
-    correlation = law.fit.correlation()
+    correlation = common_correlation([law.fit, search.fit])
     gain = score(law, held, correlation)
     found = search.findings and _found(search, unbegun, held, correlation) - margin(search, law)
     if gain > -MIN_GAIN or (search.findings and gain > found):

@@ -20,7 +20,7 @@ from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.trace import left, looking
 from lacuna.discovery.efforts.laws.variants import stuck
 from lacuna.discovery.efforts.places import sites as places
-from lacuna.discovery.fit.evidence import is_noise
+from lacuna.discovery.fit.evidence import common_correlation, is_noise
 from lacuna.discovery.fit.fit import Fit, fit, linearised
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.solver.free import Free
@@ -57,7 +57,7 @@ def find(
         fitted = [p for p in proposals[:FITTED] if p.candidate is not None]
         if not fitted:
             break
-        correlation = min((p.candidate.fit for p in fitted), key=lambda f: f.deviance()).correlation()
+        correlation = common_correlation(p.candidate.fit for p in fitted)
         chosen = min(fitted, key=lambda p: score(p.candidate, base, correlation))
         before = 0.0 if best is None else score(best.candidate, base, correlation)
         after = score(chosen.candidate, base, correlation)

@@ -40,6 +40,11 @@ class Law:
     site: Site
     groups: tuple[Group, ...] = ()
 
+    @property
+    def terms(self) -> int:
+        """Groups beside a constant: zero of a temperature, or of a sensor, is anywhere."""
+        return sum(g.texts != ("1",) for g in self.groups)
+
     def numbered(self) -> list[tuple[str, Group, dict[str, str]]]:
         """(coefficient, group, names of its shapes) of every term's text, in order."""
         result, count = [], 0

@@ -14,11 +14,11 @@ import numpy as np
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.catalogue.trace import left
-from lacuna.discovery.efforts.find import WORTH, Found, add_laws, alike_first, places_of
+from lacuna.discovery.efforts.find import WORTH, Found, add_laws, alike_first, is_family, places_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
-from lacuna.discovery.fit.evidence import FAR, excess, like_noise, nearly_noise, within_instruments
+from lacuna.discovery.fit.evidence import FAR, common_correlation, excess, like_noise, nearly_noise, within_instruments
 from lacuna.discovery.law.beyond import margin
-from lacuna.discovery.law.together.pairs import Place, is_family, paired, two_places
+from lacuna.discovery.law.together.pairs import Place, paired, two_places
 from lacuna.discovery.law.together.several import (
     among_sensors,
     apart,
@@ -166,7 +166,7 @@ def _is_left(search: Search, found: Found) -> bool:
 
 def _take(search: Search, unbegun: Search, found: Found, progress: Progress) -> bool:
     base, law = unbegun.fit, found.laws[0]
-    correlation = law.fit.correlation()
+    correlation = common_correlation([law.fit, search.fit])
     ranked = [Ranked(c, c.fit, score(c, base, correlation)) for c in _one_a_place(found.laws)]
     gain = ranked[0].score
     if max(gain, told_by_data(law, base, correlation)) > -MIN_GAIN:

@@ -9,7 +9,7 @@ import numpy as np
 
 from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.trace import left
-from lacuna.discovery.fit.evidence import nearly_noise
+from lacuna.discovery.fit.evidence import common_correlation, nearly_noise
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.zeros import beside_zeros
 from lacuna.discovery.naming.left_out import left_out_residuals
@@ -101,7 +101,7 @@ def left_out_deviance(found: Fit, base: Fit, correlation: dict[str, float]) -> f
 
 def best_correlation(candidates: list[Candidate]) -> dict[str, float]:
     """Samples that count as one in the best fit; few enough that a misfit which drifts over a recording still tells."""
-    found = min((c.fit for c in candidates), key=lambda f: f.deviance()).correlation()
+    found = common_correlation(c.fit for c in candidates)
     return {column: min(samples, COLOUR) for column, samples in found.items()}
 
 

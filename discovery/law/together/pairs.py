@@ -15,14 +15,14 @@ import numpy as np
 
 from lacuna.discovery.catalogue.attachment import values_of
 from lacuna.discovery.catalogue.trace import left, looking
-from lacuna.discovery.efforts.find import Found, alike, simplest
+from lacuna.discovery.efforts.find import Found, alike, is_family, simplest
 from lacuna.discovery.efforts.guide import guide
 from lacuna.discovery.efforts.instruments import NATS
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.law_at import TRIED
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
-from lacuna.discovery.fit.evidence import LEFT, excess, nearly_noise, pays
+from lacuna.discovery.fit.evidence import LEFT, common_correlation, excess, nearly_noise, pays
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.law.empirical_law import fitted_law, simplified, unmoved
 from lacuna.discovery.law.law import attach, component_of
@@ -122,11 +122,6 @@ def paired(found: Found, progress: Progress) -> tuple[Place, Place] | None:
     return fewer if fewer is not None and _left(found, fewer) <= LEFT**2 * _left(found, best) else best
 
 
-def is_family(site: Site) -> bool:
-    """Whether a place is several at once, with an effort of its own in each."""
-    return site.place is not None and bool(site.place.sites[0].members)
-
-
 def _left(found: Found, pair: tuple[Place, Place]) -> float:
     """Share of the misfit that efforts at both places leave."""
     one, two = pair
@@ -182,7 +177,7 @@ class Joining:
         return None if most else self._simplified(best)
 
     def _is_less(self, single: Candidate, both: Both) -> bool:
-        correlation = min(single.fit, both.fit, key=lambda f: f.deviance()).correlation()
+        correlation = common_correlation([single.fit, both.fit])
         return score(single, self.base, correlation) < self._paid(both, correlation) - self.base.deviance(correlation)
 
     def elsewhere(self, best: Both, pair: tuple[Place, Place]) -> Both:
@@ -212,7 +207,7 @@ class Joining:
         """The one with less deviance and price."""
         if one is None or other is None:
             return one or other
-        correlation = min(one.fit, other.fit, key=lambda f: f.deviance()).correlation()
+        correlation = common_correlation([one.fit, other.fit])
         best, lost = sorted((one, other), key=lambda both: self._paid(both, correlation))
         behind = self._paid(lost, correlation) - self._paid(best, correlation)
         left(lost.said(), "comparison", f"{behind:.1f} behind {best.said()}")

@@ -18,7 +18,7 @@ from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.catalogue.trace import left
 from lacuna.discovery.efforts.find import INDIFFERENT, Found, add_laws, find, places_of, simplest
 from lacuna.discovery.efforts.located import Site
-from lacuna.discovery.fit.evidence import pays, within_instruments
+from lacuna.discovery.fit.evidence import common_correlation, pays, within_instruments
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.law.beyond import MARGIN
 from lacuna.discovery.law.empirical_law import simplified
@@ -79,7 +79,7 @@ def _one_for_two(search: Search, library: Library, progress: Progress) -> bool:
         law = _best(search, amendment, base, library, progress, lambda site: not any(map(site.place.named, taken)))
         if law is None:
             continue
-        correlation = law.fit.correlation()
+        correlation = common_correlation([search.fit, law.fit])
         paid_now = sum(
             price(len(f.ranked.candidate.free), base, correlation) + 2 * f.ranked.candidate.pick for f in pair
         )
@@ -120,7 +120,8 @@ def find_long_anew(search: Search, library: Library, progress: Progress) -> None
 
 def is_short(finding: Finding) -> bool:
     """Whether a law is of one term: one of two ends no search, since its second may stand for what is elsewhere."""
-    return sum(p.name.startswith("c_") for p in finding.ranked.attachment.effect.parameters) == 1
+    law = finding.ranked.attachment.law
+    return isinstance(law, Law) and law.terms == 1
 
 
 def simplify(search: Search, progress: Progress) -> None:
@@ -142,7 +143,7 @@ def simplify(search: Search, progress: Progress) -> None:
 
 def take_if_less(search: Search, trial: Search, base: Fit) -> bool:
     """Take what another search has found where deviance and prices, those of `base` being none, are less."""
-    correlation = min(search.fit, trial.fit, key=lambda f: f.deviance()).correlation()
+    correlation = common_correlation([search.fit, trial.fit])
     if (behind := paid(trial, base, correlation) - paid(search, base, correlation)) >= 0:
         for f in trial.findings:
             law = f.ranked.attachment.said(trial.fit.point)
@@ -190,7 +191,7 @@ def _taken_out(search: Search, *numbers: int) -> tuple[Amendment, Fit | None]:
 
 def _exchange(search: Search, k: int, base: Fit, naming: Naming, ranked: Ranked, margin: float) -> None:
     """Take a finding in the place of number k where on `base`, which lacks it, it costs less by a margin."""
-    old, correlation = search.findings[k], ranked.fit.correlation()
+    old, correlation = search.findings[k], common_correlation([search.fit, ranked.fit])
     present = score(replace(old.ranked.candidate, fit=search.fit), base, correlation)
     if score(ranked.candidate, base, correlation) >= present - margin:
         return
