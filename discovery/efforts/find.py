@@ -16,10 +16,10 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.catalogue.amend import Amendment
-from lacuna.discovery.catalogue.trace import left, looking
+from lacuna.discovery.catalogue.trace import left
 from lacuna.discovery.efforts.instruments import colour_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
-from lacuna.discovery.efforts.law_at import TRIED, law_at
+from lacuna.discovery.efforts.law_at import TRIED, LawsAt
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.efforts.places.sites import SEVERAL
@@ -75,17 +75,26 @@ def add_laws(
     wide: bool = False,
 ) -> None:
     """Laws at the best places that are `admitted`, up to the `most`-th: those where none has been looked for yet.
-    `wide`: also at others of their components, and in each quantity of a place by itself."""
+    `wide`: also at others that are alike or of their components, and in each quantity of a place by itself.
+
+    Laws of one group of terms are looked for at all of these first: one of two at the best place, which takes far
+    longer, may stand for a short one at a place that an effort of any course does not tell from it.
+    """
     efforts = simplest([s for s in found.sites if s.place is not None and admitted(s)])
-    places = _to_try(efforts, most) if wide else efforts[:most]
-    for site in [s for s in places if s.location not in found.tried]:
-        enough = found.short and nearly_noise(found.laws[0].fit)
-        behind = efforts[0].gain - site.gain > INDIFFERENT
-        if behind and not alike(site, efforts[0]) and (enough or site.gain < WORTH * efforts[0].gain):
+    places = [s for s in (_to_try(efforts, most) if wide else efforts[:most]) if s.location not in found.tried]
+    begun: list[LawsAt] = []
+    for site in places:
+        if _beaten(site, efforts[0]) and (_enough(found, begun, base) or site.gain < WORTH * efforts[0].gain):
             break
         found.tried.add(site.location)
-        looking(f"a law at {site.location}")
-        proposal, single = law_at(case, amendment, base, found.locator, site, progress, wide)
+        begun.append(LawsAt(case, amendment, base, found.locator, site, progress, wide))
+        begun[-1].go_on()
+    enough = _enough(found, begun, base)
+    for laws in begun:
+        behind = efforts[0].gain - laws.site.gain > INDIFFERENT
+        while not laws.settled and not (enough and laws is not _first(begun, base)) and laws.go_on():
+            pass
+        proposal, single = laws.end()
         if behind and proposal and proposal.law.terms > 1 and found.laws and settled(found.laws[0].fit):
             left(
                 said(proposal.candidate), "comparison", "no shorter than one that leaves noise where more is explained"
@@ -97,16 +106,38 @@ def add_laws(
             found.short = proposal.law.terms == 1
 
 
+def _beaten(site: Site, best: Site) -> bool:
+    """Whether an effort at a place tells clearly less than one at the best place, and leaves clearly more."""
+    return best.gain - site.gain > INDIFFERENT and not alike(site, best)
+
+
+def _enough(found: Found, begun: list[LawsAt], base: Fit) -> bool:
+    """Whether a law of one term leaves noise, of those found and of those looked for."""
+    first = _first(begun, base)
+    short = first is not None and first.best.law.terms == 1 and nearly_noise(first.best.candidate.fit)
+    return short or (found.short and nearly_noise(found.laws[0].fit))
+
+
+def _first(begun: list[LawsAt], base: Fit) -> LawsAt | None:
+    """Where the best law is, of the places looked at."""
+    fitted = [laws for laws in begun if laws.best is not None]
+    if not fitted:
+        return None
+    correlation = common_correlation(laws.best.candidate.fit for laws in fitted)
+    return min(fitted, key=lambda laws: rival_score(laws.best.candidate, base, correlation))
+
+
 def _to_try(efforts: list[Site], most: int) -> list[Site]:
-    """The first `most` places, and behind them up to as many of the same components: of two equations of one component
-    a law may be short in the one and long in the other. Families are beside them: with an effort for each member they
-    explain no less than any one of these, whichever it is that lacks something."""
+    """The first `most` places and as many that are alike to the best one, and behind them up to as many of the same
+    components: of two equations of one component a law may be short in the one and long in the other. Families are
+    beside them: with an effort for each member they explain no less than the one that lacks something."""
 
     def parts(site: Site) -> set[str]:
         return {s.instance or s.label for s in site.place.sites}
 
-    alone = [k for k, s in enumerate(efforts) if not is_family(s)][:most]
-    count = alone[-1] + 1 if len(alone) == most else len(efforts)
+    alone = [s for s in efforts if not is_family(s)]
+    wanted = {id(s) for s in [*alone[:most], *(s for s in alone[most : 2 * most] if alike(s, alone[0]))]}
+    count = max((k + 1 for k, s in enumerate(efforts) if id(s) in wanted), default=len(efforts))
     first, behind = efforts[:count], efforts[count:]
     near = set[str]().union(*map(parts, first))
     return [*first, *[s for s in behind if parts(s) & near][:most]]

@@ -8,6 +8,7 @@ import numpy as np
 
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.trace import looking
 from lacuna.discovery.efforts.guide import Guided, guide
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.laws.begun import begun_at
@@ -29,40 +30,69 @@ TRIED = 3  # places at most at which laws are fitted, and laws of one group of t
 Progress = Callable[[str], None]
 
 
-def law_at(
-    case: Case, amendment: Amendment, base: Fit, locator: Locator, site: Site, progress: Progress, wide: bool = False
-) -> tuple[Proposal | None, Candidate | None]:
-    """The best law at a place: of one group of terms, or of two where one does not leave noise; and, where it is of two
-    that are not a level and one term, the best of one."""
-    best: Proposal | None = None
-    single: Proposal | None = None
-    begun: list[Candidate | None] = []
-    fitted: list[Proposal] = []
-    for tried, guided in _offered(locator, site, progress, wide):
+class LawsAt:
+    """The best law at a place, looked for a round of proposals at a time: laws of one group of terms come first."""
+
+    def __init__(
+        self, case: Case, amendment: Amendment, base: Fit, locator: Locator, site: Site, progress: Progress,
+        wide: bool = False,
+    ):  # fmt: skip
+        self.case, self.amendment, self.base, self.site, self.progress = case, amendment, base, site, progress
+        self.best: Proposal | None = None
+        self._single: Proposal | None = None
+        self._begun: list[Candidate | None] = []
+        self._fitted: list[Proposal] = []
+        self._offered = _offered(locator, site, progress, wide)
+
+    @property
+    def settled(self) -> bool:
+        """Whether the best law leaves noise."""
+        return self.best is not None and settled(self.best.candidate.fit)
+
+    def go_on(self) -> bool:
+        """Fit the laws of one more round; whether there was one."""
+        looking(f"a law at {self.site.location}")
+        offered = next(self._offered, None)
+        if offered is None:
+            return False
+        tried, guided = offered
+        case, amendment, base = self.case, self.amendment, self.base
         for proposal in tried:
-            progress(f"fitting a law at {site.location}: {proposal.law.text()}")
+            self.progress(f"fitting a law at {self.site.location}: {proposal.law.text()}")
             proposal.candidate = begun_at(case, amendment, base, proposal, guided.point)
-        begun += [p.candidate for p in tried]
-        race(case, base, [p.candidate for p in tried if p.candidate is not None], best and best.candidate)
-        if best is None:
-            _join(case, base, [p.candidate for p in tried if p.candidate is not None], guided)
-        tried = [p for p in (best, *tried) if p is not None and p.candidate is not None and p.candidate.fit is not None]
-        fitted += tried
-        best = _best(tried, base)
+        begun = [p.candidate for p in tried]
+        self._begun += begun
+        started = [c for c in begun if c is not None]
+        race(case, base, started, self.best and self.best.candidate)
+        if self.best is None:
+            _join(case, base, started, guided)
+        tried = [p for p in (self.best, *tried) if p is not None and p.candidate is not None and p.candidate.fit]
+        self._fitted += tried
+        self.best = self._best_of(tried)
+        return True
+
+    def _best_of(self, tried: list[Proposal]) -> Proposal | None:
+        """The best of fitted laws and, where none leaves noise, of variants of those still in the race."""
+        best, base = _best(tried, self.base), self.base
         if best is not None and not settled(best.candidate.fit):
             near = _near(tried, best, base)
-            best = _best([best, *(v for law in near for v in _varied(case, amendment, base, law))], base)
+            best = _best([best, *(v for law in near for v in _varied(self.case, self.amendment, base, law))], base)
         if best is not None and len(best.law.groups) > 1:
-            best = _shortest([p for p in tried if len(p.law.groups) > 1], best, base)
-        single = best if best is None or len(best.law.groups) == 1 else single
-        if best is not None and settled(best.candidate.fit):
-            break
-    note_laws(begun, best and best.candidate, base)
-    if best is None:
-        return None, None
-    best = _in_its_balance(fitted, best, base, site.location)
-    apart = best is not single and best.law.terms > 1
-    return simplified(case, amendment, base, best), single.candidate if apart and single else None
+            return _shortest([p for p in tried if len(p.law.groups) > 1], best, base)
+        self._single = best
+        return best
+
+    def end(self) -> tuple[Proposal | None, Candidate | None]:
+        """The best law, without what it does not need; and, where it is of two groups of terms that are not a level and
+        one term, the best of one. What it was screened along is wanted no more."""
+        self._offered.close()
+        note_laws(self._begun, self.best and self.best.candidate, self.base)
+        if self.best is None:
+            return None, None
+        best, single = _in_its_balance(self._fitted, self.best, self.base, self.site.location), self._single
+        apart = best is not single and best.law.terms > 1
+        best = simplified(self.case, self.amendment, self.base, best)
+        return best, single.candidate if apart and single else None
 
 
 def _near(fitted: list[Proposal], best: Proposal, base: Fit) -> list[Proposal]:

@@ -7,7 +7,9 @@ import pytest
 from scipy.signal import lfilter
 
 from lacuna.discovery.case.noise import Noise, sample_weights
-from lacuna.discovery.fit.evidence import holds, is_noise, like_noise, pays, repeats, whiteness
+from lacuna.discovery.fit.evidence import common_correlation, holds, is_noise, like_noise, pays, repeats, whiteness
+from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.solver.least_squares import Estimate
 
 N = 8000
 white = np.random.default_rng(3).standard_normal(N)
@@ -117,3 +119,23 @@ def test_a_model_pays_that_explains_one_signal_of_several(current: float, angle:
         return {"": float(np.hypot(i, theta) / np.sqrt(2)), "i": i, "theta": theta}
 
     assert pays(judged(0.411, 0.07), judged(current, angle), {"i": 0.05, "theta": 0.001}) == worth
+
+
+def whole_fit(residuals: dict[str, np.ndarray]) -> Fit:
+    noise = {c: Noise(1.0, 0.0, True) for c in residuals}
+    estimate = Estimate([], np.zeros(0), 0.0, 0.0, 0.0, [], np.zeros((0, 0)), True, 1, 0, [])
+    return Fit(None, estimate, dict.fromkeys(noise, 1.0), {"r": residuals}, {"r": dict.fromkeys(noise, np.ones(N))},
+               noise, 0)  # fmt: skip
+
+
+def test_fits_are_compared_by_the_colour_of_the_better_one() -> None:
+    """One leaves noise in both signals but for a little; the other, which explains that little, leaves all of a slow
+    course in one of them: by its own colour that course hardly counts, and what it explains is worth more."""
+    slow = 3.0 * np.sin(np.linspace(0.0, 20.0, N))
+    better = whole_fit({"theta": white, "w": 1.1 * white})
+    poorer = whole_fit({"theta": white + slow, "w": white})
+    own = poorer.correlation()
+    assert poorer.deviance(own) < better.deviance(own)
+    common = common_correlation([poorer, better])
+    assert common == better.correlation()
+    assert better.deviance(common) < poorer.deviance(common)

@@ -18,7 +18,7 @@ from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.catalogue.places import read as read_structure
 from lacuna.discovery.efforts.find import Found
 from lacuna.discovery.efforts.guide import guide
-from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, finite, table
+from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, finite
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.places.opened import opened
@@ -126,10 +126,9 @@ def test_what_is_told_best_where_a_law_is_already_is_that_laws_form() -> None:
 def test_a_slope_that_is_infinite_at_a_sample_is_that_beside_it() -> None:
     level = np.array([0.0, 0.25, 1.0, 0.0])
     slope = mul(const(0.5), power(var("h"), const(-0.5)))
-    rows = table([{0: slope}], 1, finite(Evaluator(lambda n: level), 4), slice(1, 4))
-    assert rows[:, 0, 0] == pytest.approx([1.0, 0.5, 0.5])
+    assert finite(Evaluator(lambda n: level), 4)(slope) == pytest.approx([1.0, 1.0, 0.5, 0.5])
     with pytest.raises(NotNumeric):
-        table([{0: slope}], 1, finite(Evaluator(lambda n: 0.0 * level), 4), slice(0, 4))
+        finite(Evaluator(lambda n: 0.0 * level), 4)(slope)
 
 
 def test_what_is_foretold_is_the_response_to_the_drawn_parameters(tmp_path: Path) -> None:

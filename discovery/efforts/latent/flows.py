@@ -7,7 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.linalg import expm
 
-NUMBERS = 1_000_000  # in an array of unknowns by all that they answer to, at as many samples as are solved together
+NUMBERS = (
+    4_000_000  # in an array of unknowns by all that they answer to, at as many samples as are solved together: 32 MB
+)
 
 
 def blocks(samples: int, each: int) -> Iterator[slice]:

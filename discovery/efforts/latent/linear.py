@@ -12,8 +12,6 @@ from contextlib import suppress
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import maximum_bipartite_matching
 
 from lacuna.codegen import flat
 from lacuna.codegen.compile import translate
@@ -23,12 +21,12 @@ from lacuna.discovery.case.case_model import UNITS
 from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.flows import blocks, flows
-from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, Value, finite, table
+from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, Value, finite
 from lacuna.discovery.efforts.latent.sampled import Sampling, read_at_ticks, remembered, through_ticks
+from lacuna.discovery.efforts.latent.substitution import Answer, Substitution
 from lacuna.discovery.fit.machine import Machine
 from lacuna.runtime import RecordedInput
 
-ROUNDING = 1e-9  # of the terms of a sum that cancels: far above what double precision leaves, far below any answer
 NEWTON = 4  # rounds at most; the trajectory solves the equations, only the derivatives are to be found
 
 
@@ -82,22 +80,37 @@ class Linear:
         states = len(self.states) + len(self.memory)
         acting, outputs = slice(states, states + len(self.inputs)), len(self.machine.columns)
         answering = np.zeros((len(self.unknowns), len(self.inputs)), bool)
-        answers = np.empty((n, len(self._told), states + columns))
-        read, feed = np.empty((n, outputs, states)), np.empty((n, outputs, columns))
+        answers = np.zeros((n, len(self._told), states + columns))
+        read, feed = np.zeros((n, outputs, states)), np.zeros((n, outputs, columns))
         for block in self._blocks(n):
-            matrix = table(self._by_unknown, len(self.unknowns), course, block)
-            right = [table(self._by_state, states, course, block), table(self._by_column, columns, course, block)]
-            right = np.concatenate(right, axis=2)
-            answer = -np.linalg.solve(matrix, right)
-            answer[:, :, acting] = _without_rounding(answer[:, :, acting], matrix, right[:, :, acting]) * self._reached
-            answering |= np.any(answer[:, :, acting] != 0, axis=0)
-            answers[block] = answer[:, self._told]
-            read[block], feed[block] = self._outputs(answer)
+            found = self._answers(course, block, range(acting.start, acting.stop))
+            for u, answer in enumerate(found):
+                answering[u, [c - states for c in answer.columns if acting.start <= c < acting.stop]] = True
+            for k, u in enumerate(self._told):
+                answers[block, k, found[u].columns] = found[u].values.T
+            read[block], feed[block] = self._outputs(found, block.stop - block.start, states + columns)
         step, drive = self._stepped(answers, recording.time, solved)
         direct = answers[:, : len(self.states), acting].copy()
         return Along(
             recording.time, step, drive, read, feed, direct, answering, {**fixed, **values, "time": recording.time}
         )
+
+    def _answers(self, course: Callable[[Expr], np.ndarray], block: slice, acting: range) -> list[Answer]:
+        """Of each unknown at a block of samples, to states, inputs and parameters."""
+
+        def there(e: Expr) -> np.ndarray:
+            return course(e)[block]
+
+        states = len(self.states) + len(self.memory)
+        right = [
+            {j: there(e) for j, e in by_state.items()} | {states + j: there(e) for j, e in by_column.items()}
+            for by_state, by_column in zip(self._by_state, self._by_column, strict=True)
+        ]
+        return self._substitution.solve(there, right, block.stop - block.start, acting)
+
+    @cached_property
+    def _substitution(self) -> Substitution:
+        return Substitution(self._by_unknown)
 
     def _stepped(self, answers: np.ndarray, time: np.ndarray, values: Evaluator) -> tuple[np.ndarray, np.ndarray]:
         """(step, drive) from sample to sample, with what a sampled controller remembers where that can be followed;
@@ -122,23 +135,6 @@ class Linear:
         """Unknowns whose answers are kept: the rates, and what sampled controllers read."""
         read = read_at_ticks(self.prepared) if self.memory else set()
         return [k for k, u in enumerate(self.unknowns) if k < len(self.states) or _named(u) in read]
-
-    @cached_property
-    def _reached(self) -> np.ndarray:
-        """(u, inputs): which unknowns an input can change at once at all, by what stands in which row: with a row
-        assigned to each unknown, it follows the others that stand there. Elsewhere an answer is rounding."""
-        stands = np.zeros((len(self.unknowns), len(self.unknowns)), bool)
-        enters = np.zeros((len(self.unknowns), len(self.inputs)), bool)
-        for r, (unknowns, columns) in enumerate(zip(self._by_unknown, self._by_column, strict=True)):
-            stands[r, list(unknowns)] = True
-            enters[r, [c for c in columns if c < len(self.inputs)]] = True
-        row_of = maximum_bipartite_matching(csr_matrix(stands), perm_type="row")  # of each unknown
-        if np.any(row_of < 0):
-            raise NotNumeric("its equations cannot be assigned to its unknowns")
-        reached, follows = enters[row_of], csr_matrix(stands[row_of], dtype=np.int32)
-        while np.any(further := (follows @ reached.astype(np.int32) > 0) & ~reached):
-            reached |= further
-        return reached
 
     def _kept(self, name: str) -> str:
         return self.prepared.aliases.get(name, (name, 1))[0]
@@ -170,15 +166,13 @@ class Linear:
             values[name] = np.zeros(len(time))
         for _ in range(NEWTON):
             evaluator = Evaluator(self._leaf(values, fixed, time))
-            course, change = finite(evaluator, len(time)), np.empty((len(time), len(names)))
-            for block in self._blocks(len(time)):
-                matrix = table(self._by_unknown, len(names), course, block)
-                miss = np.stack([np.broadcast_to(evaluator(r), time.shape)[block] for r in self.residuals], axis=1)
-                change[block] = -np.linalg.solve(matrix, miss[:, :, None])[:, :, 0]
-            for k, name in enumerate(names):
-                values[name] = values[name] + change[:, k]
+            course, change = finite(evaluator, len(time)), np.zeros((len(names), len(time)))
+            miss = [{0: np.broadcast_to(evaluator(r), time.shape)} for r in self.residuals]
+            for k, answer in enumerate(self._substitution.solve(course, miss, len(time))):
+                change[k] = answer.values.sum(axis=0)
+                values[names[k]] = values[names[k]] + change[k]
             size = np.array([np.abs(values[name]).max(initial=0.0) for name in names])
-            if np.all(np.abs(change).max(axis=0, initial=0.0) <= 1e-9 * size + 1e-300):
+            if np.all(np.abs(change).max(axis=1, initial=0.0) <= 1e-9 * size + 1e-300):
                 break
         return Evaluator(self._leaf(values, fixed, time))
 
@@ -210,9 +204,9 @@ class Linear:
 
         return leaf
 
-    def _outputs(self, answer: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _outputs(self, found: list[Answer], samples: int, width: int) -> tuple[np.ndarray, np.ndarray]:
         states, names = len(self.states) + len(self.memory), list(self.machine.columns.values())
-        both = np.zeros((len(answer), len(names), answer.shape[2]))
+        both = np.zeros((samples, len(names), width))
         place = {str(u.value): k for k, u in enumerate(self.unknowns) if u.op == "var"}
         for i, name in enumerate(names):
             kept, sign = self.prepared.aliases.get(name, (name, 1))
@@ -221,7 +215,7 @@ class Linear:
             elif kept in self.memory:
                 both[:, i, len(self.states) + self.memory.index(kept)] = sign
             elif kept in place:
-                both[:, i] = sign * answer[:, place[kept]]
+                both[:, i, found[place[kept]].columns] = sign * found[place[kept]].values.T
             elif kept not in self.prepared.storage.inputs:
                 raise NotNumeric(f"{name} is no state and no algebraic variable")
         return both[:, :, :states], both[:, :, states:]
@@ -229,13 +223,6 @@ class Linear:
 
 def _named(unknown: Expr) -> str:
     return f"der({unknown.args[0].value})" if unknown.op == "der" else str(unknown.value)
-
-
-def _without_rounding(answer: np.ndarray, matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """Answers (n, u, b) with zero where terms cancel but for their rounding, in any units: an effort that does nothing
-    there, as what is pushed into an ideal source."""
-    terms = np.abs(np.linalg.inv(matrix)) @ np.abs(right)
-    return np.where(np.abs(answer) > ROUNDING * terms, answer, 0.0)
 
 
 def _partials(residual: Expr, leaves: list[Expr]) -> dict[int, Expr]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -59,17 +59,6 @@ class Evaluator:
         if e.op == "call" and e.value in _CALLS:
             return _CALLS[str(e.value)](*map(self, e.args))
         raise NotNumeric(f"{e.value or e.op} cannot be linearised here")
-
-
-def table(
-    rows: list[Mapping[int, Expr]], columns: int, course: Callable[[Expr], np.ndarray], block: slice
-) -> np.ndarray:  # fmt: skip
-    """(samples, rows, columns) of expressions given by row and column, at a block of samples; zero elsewhere."""
-    result = np.zeros((block.stop - block.start, len(rows), columns))
-    for i, row in enumerate(rows):
-        for j, e in row.items():
-            result[:, i, j] = course(e)[block]
-    return result
 
 
 def finite(value: Callable[[Expr], Value], samples: int) -> Callable[[Expr], np.ndarray]:

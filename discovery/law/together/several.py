@@ -111,15 +111,16 @@ def apart(search: Search, unbegun: Search, single: Candidate, library: Library, 
 
 
 def find_long_anew(search: Search, library: Library, progress: Progress) -> None:
-    """Find each law of several terms anew, given the others: it was screened beside an effort of any course at their
-    places, and its further terms may stand for what that takes of it."""
+    """Find each law of several terms anew, a level among them, given the others: it was screened beside an effort of
+    any course at their places, and its further terms may stand for what that takes of it."""
     for k, found in enumerate(search.findings):
-        if not is_short(found):
+        if len(found.ranked.attachment.law.groups) > 1:
             _find_anew(search, k, library, progress)
 
 
 def is_short(finding: Finding) -> bool:
-    """Whether a law is of one term: one of two ends no search, since its second may stand for what is elsewhere."""
+    """Whether a law is of one term, or of one beside a level: one of two ends no search, since its second may stand for
+    what is elsewhere."""
     law = finding.ranked.attachment.law
     return isinstance(law, Law) and law.terms == 1
 
