@@ -30,7 +30,7 @@ from lacuna.discovery.fit.solver.time_limit import TimeUp
 from lacuna.discovery.fit.tracking import trackable
 from lacuna.discovery.law.beyond import explain_beyond
 from lacuna.discovery.law.locate import effort_at, locate, place_of
-from lacuna.discovery.law.open_world import begun_open, explain_open
+from lacuna.discovery.law.open_world import begun_open, explain_open, take_at_last
 from lacuna.discovery.law.together.nearby import go_on_nearby
 from lacuna.discovery.naming.comparison import MIN_GAIN
 from lacuna.discovery.naming.dips import explored, is_smooth
@@ -173,6 +173,8 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
             result.opened = places_of(search.case, unbegun.amendment, unbegun.fit, library)
     except TimeUp as stopped:
         search.reason = result.stopped = str(stopped)
+        if result.opened is not None:
+            take_at_last(search, unbegun, result.opened, progress)
     _take(result, search)
 
 

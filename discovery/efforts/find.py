@@ -25,6 +25,7 @@ from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.efforts.places.sites import SEVERAL
 from lacuna.discovery.fit.evidence import LEFT, common_correlation, nearly_noise, settled
 from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.solver.time_limit import TimeUp
 from lacuna.discovery.naming.comparison import TIE, rival_score, said
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.runtime import SimulationError
@@ -83,27 +84,34 @@ def add_laws(
     efforts = simplest([s for s in found.sites if s.place is not None and admitted(s)])
     places = [s for s in (_to_try(efforts, most) if wide else efforts[:most]) if s.location not in found.tried]
     begun: list[LawsAt] = []
-    for site in places:
-        if _beaten(site, efforts[0]) and (_enough(found, begun, base) or site.gain < WORTH * efforts[0].gain):
-            break
-        found.tried.add(site.location)
-        begun.append(LawsAt(case, amendment, base, found.locator, site, progress, wide))
-        begun[-1].go_on()
-    enough = _enough(found, begun, base)
-    for laws in begun:
-        behind = efforts[0].gain - laws.site.gain > INDIFFERENT
-        while not laws.settled and not (enough and laws is not _first(begun, base)) and laws.go_on():
-            pass
-        proposal, single = laws.end()
-        if behind and proposal and proposal.law.terms > 1 and found.laws and settled(found.laws[0].fit):
-            left(
-                said(proposal.candidate), "comparison", "no shorter than one that leaves noise where more is explained"
-            )
-        else:
-            _put(found.laws, proposal and proposal.candidate, base)
-        _put(found.single, single, base)
-        if proposal is not None and found.laws[0] is proposal.candidate:
-            found.short = proposal.law.terms == 1
+    try:
+        for site in places:
+            if _beaten(site, efforts[0]) and (_enough(found, begun, base) or site.gain < WORTH * efforts[0].gain):
+                break
+            found.tried.add(site.location)
+            begun.append(LawsAt(case, amendment, base, found.locator, site, progress, wide))
+            begun[-1].go_on()
+        enough = _enough(found, begun, base)
+        for laws in begun:
+            while not laws.settled and not (enough and laws is not _first(begun, base)) and laws.go_on():
+                pass
+            _end(found, laws, base, efforts[0].gain - laws.site.gain > INDIFFERENT)
+    except TimeUp:
+        for laws in (laws for laws in begun if not laws.ended):
+            _put(found.laws, laws.best and laws.best.candidate, base)
+        raise
+
+
+def _end(found: Found, laws: LawsAt, base: Fit, behind: bool) -> None:
+    """Take the best law at a place among those found; not one of several terms `behind` one that leaves noise."""
+    proposal, single = laws.end()
+    if behind and proposal and proposal.law.terms > 1 and found.laws and settled(found.laws[0].fit):
+        left(said(proposal.candidate), "comparison", "no shorter than one that leaves noise where more is explained")
+    else:
+        _put(found.laws, proposal and proposal.candidate, base)
+    _put(found.single, single, base)
+    if proposal is not None and found.laws[0] is proposal.candidate:
+        found.short = proposal.law.terms == 1
 
 
 def _beaten(site: Site, best: Site) -> bool:

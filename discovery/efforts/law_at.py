@@ -39,6 +39,7 @@ class LawsAt:
     ):  # fmt: skip
         self.case, self.amendment, self.base, self.site, self.progress = case, amendment, base, site, progress
         self.best: Proposal | None = None
+        self.ended = False
         self._single: Proposal | None = None
         self._begun: list[Candidate | None] = []
         self._fitted: list[Proposal] = []
@@ -85,6 +86,7 @@ class LawsAt:
     def end(self) -> tuple[Proposal | None, Candidate | None]:
         """The best law, without what it does not need; and, where it is of two groups of terms that are not a level and
         one term, the best of one. What it was screened along is wanted no more."""
+        self.ended = True
         self._offered.close()
         note_laws(self._begun, self.best and self.best.candidate, self.base)
         if self.best is None:

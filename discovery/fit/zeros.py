@@ -17,6 +17,8 @@ from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.fit.fit import Fit, fit
 from lacuna.discovery.fit.solver.free import Free, clipped, pulls
 
+FURTHEST = 3.0  # that a zero is off, in units of its belief: what is told of it where much is missing is no zero's
+
 
 def beside_zeros(found: Fit) -> Fit:
     """The fit with a zero (units of its noise) of each output, and its drifts, among its parameters; the same one where
@@ -27,6 +29,14 @@ def beside_zeros(found: Fit) -> Fit:
     if found.zeroed is None:
         found.zeroed = _stepped(found)
     return found.zeroed
+
+
+def largest_zero(found: Fit) -> float:
+    """Of the zeros and drifts that a fit tells beside itself, in units of noise; infinite where it has no Jacobian."""
+    beside = beside_zeros(found)
+    if beside is found:
+        return float("inf")
+    return float(np.max(np.abs(beside.estimate.values[len(found.estimate.free) :]), initial=0.0))
 
 
 def zeros_of(found: Fit) -> dict[str, float]:
@@ -78,7 +88,7 @@ def _stepped(found: Fit) -> Fit:
     own = sum(z.T @ z for z in columns) + np.eye(columns[0].shape[1])
     shift = np.linalg.lstsq(normal, cross, rcond=None)[0]  # of the parameters, by each zero
     load = sum(z.T @ r for z, r in zip(columns, estimate.residuals, strict=True))
-    zeros = np.linalg.solve(own - cross.T @ shift, load)
+    zeros = np.clip(np.linalg.solve(own - cross.T @ shift, load), -FURTHEST, FURTHEST)
     values = estimate.values.copy()
     values[inside] += np.array([estimate.free[k].scale for k in inside]) * (shift @ zeros)
     moves = [j[:, inside] @ (shift @ zeros) - z @ zeros for j, z in zip(estimate.jacobian, columns, strict=True)]

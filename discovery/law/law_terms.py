@@ -156,12 +156,14 @@ def _compiled(text: str) -> CodeType:
 
 def lagged(time: np.ndarray, values: np.ndarray, tau: complex) -> np.ndarray:
     """(n,) of values (n,) behind a first-order lag of `tau` seconds, exact for values that are linear in between."""
-    keeps = np.exp(-np.diff(time) / tau)
-    mean = (1 - keeps) / (np.diff(time) / tau)  # of what is kept over an interval
+    steps, state = np.diff(time), values[0].item()
+    even = len(steps) > 0 and np.ptp(steps) <= 1e-9 * abs(tau)  # but for the rounding of times
+    lasting = (steps[0] if even else steps) / tau
+    keeps = np.exp(-lasting)
+    mean = (1 - keeps) / lasting  # of what is kept over an interval
     added = (1 - mean) * values[1:] + (mean - keeps) * values[:-1]
-    state = values[0].item()
-    if np.allclose(keeps, keeps[0], rtol=1e-9, atol=0.0):  # but for the rounding of times
-        behind, _ = lfilter([1.0], [1.0, -keeps[0]], added, zi=[keeps[0] * state])
+    if even:
+        behind, _ = lfilter([1.0], [1.0, -keeps], added, zi=[keeps * state])
         return np.concatenate([[state], behind])
     result = [state]
     for keep, more in zip(keeps.tolist(), added.tolist(), strict=True):

@@ -106,6 +106,12 @@ def explain_open(
     simplify(search, progress)
 
 
+def take_at_last(search: Search, unbegun: Search, found: Found, progress: Progress) -> None:
+    """The best law that was fitted, where the time was up before any was compared with errors of sensors, if at all."""
+    if found.laws and all(f.ranked.attachment.variable for f in search.findings):
+        _take(search, unbegun, found, progress)
+
+
 def _one_by_one(
     search: Search, unbegun: Search, found: Found, pair: tuple[Place, Place] | None, library: Library,
     progress: Progress,

@@ -11,7 +11,7 @@ from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.trace import left
 from lacuna.discovery.fit.evidence import common_correlation, nearly_noise
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.fit.zeros import beside_zeros
+from lacuna.discovery.fit.zeros import beside_zeros, largest_zero
 from lacuna.discovery.naming.left_out import left_out_residuals
 from lacuna.discovery.naming.screen import Candidate
 
@@ -134,6 +134,23 @@ def ranked_beside_zeros(ranked: list[Ranked], base: Fit, correlation: dict[str, 
         for r, own in zip(physical, scores, strict=True):
             r.score = own + shift
     return sorted(ranked, key=lambda r: r.score)
+
+
+def without_zeros(ranked: list[Ranked], base: Fit, correlation: dict[str, float]) -> list[Ranked]:
+    """Those that say more than that zeros are off and drift, by the noise of a sample at most: instruments are, and
+    nothing is missing then."""
+    kept = [r for r in ranked if not _is_zero(r.candidate, base, correlation)]
+    for r in ranked:
+        if all(r is not other for other in kept):
+            left(said(r.candidate), "comparison", "no more than a zero or a drift, as instruments have", cost=r.score)
+    return kept
+
+
+def _is_zero(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> bool:
+    if not candidate.attachment.variable or max(map(largest_zero, (base, candidate.fit))) > 1.0:
+        return False
+    beside = replace(candidate, fit=beside_zeros(candidate.fit))
+    return score(beside, beside_zeros(base), correlation) > -MIN_GAIN
 
 
 def _for_rivals(candidate: Candidate, found: Fit) -> Fit:
