@@ -93,9 +93,11 @@ def add_laws(
             begun[-1].go_on()
         enough = _enough(found, begun, base)
         for laws in begun:
-            while not laws.settled and not (enough and laws is not _first(begun, base)) and laws.go_on():
+            behind = efforts[0].gain - laws.site.gain > INDIFFERENT
+            likely = not enough or laws in (begun[0], _first(begun, base))
+            while likely and not laws.settled and not (behind and any(b.settled for b in begun)) and laws.go_on():
                 pass
-            _end(found, laws, base, efforts[0].gain - laws.site.gain > INDIFFERENT)
+            _end(found, laws, base, behind)
     except TimeUp:
         for laws in (laws for laws in begun if not laws.ended):
             _put(found.laws, laws.best and laws.best.candidate, base)
