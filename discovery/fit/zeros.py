@@ -14,10 +14,9 @@ from dataclasses import replace
 import numpy as np
 
 from lacuna.discovery.case.cases import Recording
+from lacuna.discovery.fit.evidence import SIGMAS
 from lacuna.discovery.fit.fit import Fit, fit
 from lacuna.discovery.fit.solver.free import Free, clipped, pulls
-
-FURTHEST = 3.0  # that a zero is off, in units of its belief: what is told of it where much is missing is no zero's
 
 
 def beside_zeros(found: Fit) -> Fit:
@@ -88,7 +87,8 @@ def _stepped(found: Fit) -> Fit:
     own = sum(z.T @ z for z in columns) + np.eye(columns[0].shape[1])
     shift = np.linalg.lstsq(normal, cross, rcond=None)[0]  # of the parameters, by each zero
     load = sum(z.T @ r for z, r in zip(columns, estimate.residuals, strict=True))
-    zeros = np.clip(np.linalg.solve(own - cross.T @ shift, load), -FURTHEST, FURTHEST)
+    zeros = np.linalg.solve(own - cross.T @ shift, load)
+    zeros = np.clip(zeros, -SIGMAS, SIGMAS)  # further off, it is what is missing that they stand for
     values = estimate.values.copy()
     values[inside] += np.array([estimate.free[k].scale for k in inside]) * (shift @ zeros)
     moves = [j[:, inside] @ (shift @ zeros) - z @ zeros for j, z in zip(estimate.jacobian, columns, strict=True)]
