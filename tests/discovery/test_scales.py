@@ -7,10 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lacuna.codegen.symbolic.expr import var
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as read_structure
-from lacuna.discovery.efforts.latent.linear import _without_rounding
+from lacuna.discovery.efforts.latent.substitution import Substitution
 from lacuna.discovery.efforts.places.opened import opened
 
 LINE = """model Line "Accumulator, long line, load"
@@ -59,7 +60,12 @@ def test_a_loss_in_a_line_is_a_place_beside_a_leak(tmp_path: Path) -> None:
 @pytest.mark.parametrize("unit", [1.0, 1e-12, 1e12])
 def test_what_cancels_but_for_rounding_does_nothing(unit: float) -> None:
     """Unknowns (a, b) with a + b = e and a + b/3 = e: the effort is in a alone, b is what rounding leaves."""
-    matrix, right = np.array([[[1.0, 1.0], [1.0, 1 / 3]]]), unit * np.array([[[0.1], [0.1]]])
-    answer = -np.linalg.solve(matrix, right) + unit * np.array([[[0.0], [1e-17]]])
-    clean = _without_rounding(answer, matrix, right)
-    assert clean[0, 0, 0] == answer[0, 0, 0] and clean[0, 1, 0] == 0.0
+    one, third = var("one"), var("third")
+    courses = {one: np.ones(1), third: np.full(1, 1 / 3)}
+    effort = np.full(1, -0.3 * unit)
+    right = [{0: effort}, {0: np.nextafter(effort, 0.0)}]
+    equations = Substitution([{0: one, 1: one}, {0: one, 1: third}])
+    rounded = equations.solve(courses.__getitem__, right, 1)[1]
+    assert 0 < np.abs(rounded.values).max() < 1e-15 * unit
+    a, b = equations.solve(courses.__getitem__, right, 1, exact=range(1))
+    assert a.values == pytest.approx(0.3 * unit) and len(b.columns) == 0
