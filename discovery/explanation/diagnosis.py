@@ -222,7 +222,7 @@ def sentence(result: Explanation) -> str:
             return f"The model lacks {' and '.join(parts)}; without it {_moved(result)} from what was believed."
         share = explained(result)
         rest = "" if share >= PARTIAL else f" This is a part of it only: {1 - share:.0%} of the misfit is left."
-        rest += f" T{result.stopped[1:]}." if result.stopped else ""
+        rest += f" {result.stopped.capitalize()}." if result.stopped else ""
         falls = f"with it the error {_fall(result)}."
         return f"The model lacks {' and '.join(parts)}; {falls}{rest}"
     if result.verdict == "parameters":

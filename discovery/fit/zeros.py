@@ -32,19 +32,21 @@ def beside_zeros(found: Fit) -> Fit:
 
 def largest_zero(found: Fit) -> float:
     """Of the zeros and drifts that a fit tells beside itself, in units of noise; infinite where it has no Jacobian."""
-    beside = beside_zeros(found)
-    if beside is found:
-        return float("inf")
-    return float(np.max(np.abs(beside.estimate.values[len(found.estimate.free) :]), initial=0.0))
+    told = _told(found)
+    return float(np.max(np.abs(told))) if len(told) else float("inf")
 
 
 def zeros_of(found: Fit) -> dict[str, float]:
     """The zero of each output that a fit tells beside itself, SI; nothing where it has no Jacobian."""
-    beside = beside_zeros(found)
-    if beside is found:
+    told = _told(found)
+    if not len(told):
         return dict.fromkeys(found.noise, 0.0)
-    values = beside.estimate.values[len(found.estimate.free) :]
-    return {c: float(z) * n.std for (c, n), z in zip(found.noise.items(), values, strict=False)}
+    return {c: float(z) * n.std for (c, n), z in zip(found.noise.items(), told, strict=False)}
+
+
+def _told(found: Fit) -> np.ndarray:
+    """The zeros, then the drifts, in units of noise; none where the fit has no Jacobian."""
+    return beside_zeros(found).estimate.values[len(found.estimate.free) :]
 
 
 def without_zeros(found: Fit) -> Fit:

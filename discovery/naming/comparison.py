@@ -136,7 +136,7 @@ def ranked_beside_zeros(ranked: list[Ranked], base: Fit, correlation: dict[str, 
     return sorted(ranked, key=lambda r: r.score)
 
 
-def without_zeros(ranked: list[Ranked], base: Fit, correlation: dict[str, float]) -> list[Ranked]:
+def beyond_zeros(ranked: list[Ranked], base: Fit, correlation: dict[str, float]) -> list[Ranked]:
     """Those that say more than that zeros are off and drift, by the noise of a sample at most: instruments are, and
     nothing is missing then."""
     kept = [r for r in ranked if not _is_zero(r.candidate, base, correlation)]

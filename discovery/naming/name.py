@@ -25,12 +25,12 @@ from lacuna.discovery.naming.comparison import (
     Progress,
     Ranked,
     best_correlation,
+    beyond_zeros,
     confidences,
     cross_validated,
     note_losers,
     ranked_beside_zeros,
     score,
-    without_zeros,
 )
 from lacuna.discovery.naming.judge import Judgement
 from lacuna.discovery.naming.race import (
@@ -213,7 +213,7 @@ class Contest:
             if not any(nearly_noise(c.fit) for c in self.fitted.values()):
                 raise
             ranked, correlation = _ranked(self.fitted, self.base)
-        if ranked := without_zeros(ranked, self.base, correlation):
+        if ranked := beyond_zeros(ranked, self.base, correlation):
             confidences(ranked)
         screened = [(c.attachment.label, c.predicted) for c in best_starts(self.candidates)]
         note_screened(screened, [*self.fitted, *(label for label, _ in self.failures)])

@@ -7,9 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.linalg import expm
 
-NUMBERS = (
-    4_000_000  # in an array of unknowns by all that they answer to, at as many samples as are solved together: 32 MB
-)
+NUMBERS = 4_000_000  # 32 MB: in an array of unknowns by all that they answer to, at samples that are solved together
 
 
 def blocks(samples: int, each: int) -> Iterator[slice]:

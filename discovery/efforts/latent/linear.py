@@ -83,9 +83,10 @@ class Linear:
         answers = np.zeros((n, len(self._told), states + columns))
         read, feed = np.zeros((n, outputs, states)), np.zeros((n, outputs, columns))
         for block in self._blocks(n):
-            found = self._answers(course, block, range(acting.start, acting.stop))
+            found = self._answers(course, block)
             for u, answer in enumerate(found):
-                answering[u, [c - states for c in answer.columns if acting.start <= c < acting.stop]] = True
+                acts = answer.columns[(answer.columns >= acting.start) & (answer.columns < acting.stop)]
+                answering[u, acts - states] = True
             for k, u in enumerate(self._told):
                 answers[block, k, found[u].columns] = found[u].values.T
             read[block], feed[block] = self._outputs(found, block.stop - block.start, states + columns)
@@ -95,7 +96,7 @@ class Linear:
             recording.time, step, drive, read, feed, direct, answering, {**fixed, **values, "time": recording.time}
         )
 
-    def _answers(self, course: Callable[[Expr], np.ndarray], block: slice, acting: range) -> list[Answer]:
+    def _answers(self, course: Callable[[Expr], np.ndarray], block: slice) -> list[Answer]:
         """Of each unknown at a block of samples, to states, inputs and parameters."""
 
         def there(e: Expr) -> np.ndarray:
@@ -106,7 +107,9 @@ class Linear:
             {j: there(e) for j, e in by_state.items()} | {states + j: there(e) for j, e in by_column.items()}
             for by_state, by_column in zip(self._by_state, self._by_column, strict=True)
         ]
-        return self._substitution.solve(there, right, block.stop - block.start, acting)
+        return self._substitution.solve(
+            there, right, block.stop - block.start, exact=range(states, states + len(self.inputs))
+        )
 
     @cached_property
     def _substitution(self) -> Substitution:
