@@ -15,6 +15,7 @@ from lacuna.discovery.fit.solver.time_limit import check
 from lacuna.discovery.law.law import Law, Site, component_of
 from lacuna.discovery.law.law_terms import Group, Variable, groups
 from lacuna.discovery.law.response import linear, respond
+from lacuna.discovery.law.term_courses import Courses
 from lacuna.discovery.naming.screen import Candidate, Screen
 
 SHORTLIST = 24  # groups that are tried on what they were not fitted to
@@ -119,7 +120,7 @@ class Effort:
 
     def columns(self, group: Group, weights: list[np.ndarray]) -> list[np.ndarray]:
         """One column for each term: what a loss of one unit of it changes in the weighted residual."""
-        terms = [group.values(path, self.site.sizes) for path in self.paths]
+        terms = [group.values(Courses(path, self.site.sizes)) for path in self.paths]
         return [self._column([t[k] for t in terms], weights) for k in range(len(group.texts))]
 
     def _column(self, effort: list[np.ndarray], weights: list[np.ndarray]) -> np.ndarray:

@@ -1,7 +1,6 @@
 """Terms of empirical laws: expressions in the variables at a place, each made dimensionless by its largest value.
 
-A term's text is Modelica and is evaluated along a trajectory from that same text, so what is screened is what will be
-simulated. `{p}`, `{k}`, `{tau}` and `{omega}` stand for shape parameters, which a fit may move. `lag(x, tau)` is x
+A term's text is Modelica, and what it is along a trajectory is read from that same text (`term_courses.py`). `{p}`, `{k}`, `{tau}` and `{omega}` stand for shape parameters, which a fit may move. `lag(x, tau)` is x
 behind a first-order lag that begins at rest: a state of the law's own; `warmth(x, tau)` begins cold, at nothing, as
 does `total(x, tau)`, all of x since the start, over tau, and `spent(x, tau)`, the share of what x uses up that is gone.
 `swing(x, w, z)` is what a mass on a spring of its own does to what moves at x, over that mass times w: the stretch of
@@ -16,17 +15,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 import re
-from types import CodeType
 
 import numpy as np
-from scipy.signal import lfilter
 
 from lacuna.discovery.efforts.places.families import meant
+from lacuna.discovery.law.term_courses import Courses
 
-_FUNCTIONS = {"sin": np.sin, "cos": np.cos, "exp": np.exp, "tanh": np.tanh, "abs": np.abs, "sign": np.sign,
-              "sqrt": np.sqrt, "dry": np.sign}  # fmt: skip
 STICKS = "dry{x}"  # its sign while it moves; at rest whatever holds it there, up to one in size
 DRY = "tanh(50*{x})"  # the sign of a variable, smooth over two per cent of its range: no second sticking element
 ORDERS = (0.5, 1, 1.5, 2, 3, 4, 5, 6, 8, 10, 12)  # per turn
@@ -35,6 +31,7 @@ EXPONENTS = (0.5, 1.5, 2.0, 3.0, 4.0)  # where powers start: flow through an ori
 BEYOND = (1.5, 2.0)  # powers of what is beyond a threshold: weirs, contacts
 WHOLE = (1 / 3, 2 / 3, 1.0, 7 / 4, *EXPONENTS, 5.0)  # exponents that are told as such
 AGES = re.compile(r"(?:^|(?<=\*))(?:warmth|total|spent)\((.*), [^,()]+\)$")  # of what was done since the start
+MEMORY = re.compile(r"\b(?:lag|warmth|total|spent|swing|delay|onset|hysteresis)\(.*")
 HIGHEST = 200.0  # rad/s: fastest vibration that is looked for
 OCTAVE = 1.6  # times pi over the longest recording: spacing of the frequencies that are looked at
 
@@ -120,84 +117,16 @@ class Group:
         """Whether it is of what was done since the start."""
         return any(AGES.search(text) for text in self.texts)
 
-    def values(self, trajectory: Mapping[str, np.ndarray], sizes: Mapping[str, float]) -> list[np.ndarray]:
-        """Each term (n,) along a trajectory (local names and `time`) with its shapes at their starts."""
-        return [evaluate(text.format(**{s.name: s.start for s in self.shapes}), trajectory, sizes)
-                for text in self.seen or self.texts]  # fmt: skip
+    @cached_property
+    def memory(self) -> tuple[str, ...]:
+        """What it remembers, none that has no memory: groups of the same are quick one after the other."""
+        found = MEMORY.search(self.texts[0])
+        return (found[0], *(str(s.start) for s in self.shapes)) if found else ()
 
-
-def evaluate(text: str, trajectory: Mapping[str, np.ndarray], sizes: Mapping[str, float]) -> np.ndarray:
-    """A term's text (of this module's making) along a trajectory."""
-    names = {**_FUNCTIONS, **trajectory, **{f"{n}_ref": s for n, s in sizes.items()}}
-    time = trajectory["time"]
-    names["lag"] = lambda values, tau: lagged(time, values, tau)
-    names["warmth"] = lambda values, tau: warmed(time, _everywhere(values, time), tau)
-    names["total"] = lambda values, tau: total(time, _everywhere(values, time)) / tau
-    names["spent"] = lambda values, tau: -np.expm1(-total(time, _everywhere(values, time)) / tau)
-    names["bounded"] = lambda values, q: values - np.clip(values, -q, q)
-    names["swing"] = lambda values, w, z: swinging(time, values, w, z)
-    names["hysteresis"] = lambda values, t: bent(time, values, t)
-    names["delay"] = lambda values, late, apart: np.interp(time - late, time, values)
-    names["onset"] = lambda values, late, apart: (
-        np.interp(time - late, time, values) * np.clip((time - time[0] - late) / apart + 0.5, 0, 1)
-    )
-    value = eval(_compiled(text), {"__builtins__": {}}, names)
-    return _everywhere(value, time)
-
-
-def _everywhere(values: np.ndarray | float, time: np.ndarray) -> np.ndarray:
-    return np.broadcast_to(np.asarray(values, float), time.shape)
-
-
-@lru_cache(maxsize=4096)
-def _compiled(text: str) -> CodeType:
-    return compile(text.replace("^", "**"), "<term>", "eval")
-
-
-def lagged(time: np.ndarray, values: np.ndarray, tau: complex) -> np.ndarray:
-    """(n,) of values (n,) behind a first-order lag of `tau` seconds, exact for values that are linear in between."""
-    steps, state = np.diff(time), values[0].item()
-    even = len(steps) > 0 and np.ptp(steps) <= 1e-9 * abs(tau)  # but for the rounding of times
-    lasting = (steps[0] if even else steps) / tau
-    keeps = np.exp(-lasting)
-    mean = (1 - keeps) / lasting  # of what is kept over an interval
-    added = (1 - mean) * values[1:] + (mean - keeps) * values[:-1]
-    if even:
-        behind, _ = lfilter([1.0], [1.0, -keeps], added, zi=[keeps * state])
-        return np.concatenate([[state], behind])
-    result = [state]
-    for keep, more in zip(keeps.tolist(), added.tolist(), strict=True):
-        state = keep * state + more
-        result.append(state)
-    return np.array(result)
-
-
-def warmed(time: np.ndarray, values: np.ndarray, tau: float) -> np.ndarray:
-    """(n,) of values (n,) behind a first-order lag that begins at nothing."""
-    return lagged(time, values, tau) - values[0] * np.exp((time[0] - time) / tau)
-
-
-def total(time: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """(n,) integral of values (n,) from the start, by trapezoids."""
-    return np.concatenate([[0.0], np.cumsum(np.diff(time) * (values[1:] + values[:-1]) / 2)])
-
-
-def swinging(time: np.ndarray, values: np.ndarray, w: float, z: float) -> np.ndarray:
-    """(n,) of what swings behind values (n,): -(w p + 2 z p^2)/(p^2 + 2 z w p + w^2) of them, by partial fractions."""
-    pole = w * complex(-z, np.sqrt(1 - z**2))
-    residue = (2 * z * w**2 - w * (1 - 4 * z**2) * pole) / (2 * (pole + z * w))
-    return -2 * z * values - 2 * np.real(residue / pole * lagged(time, values, -1 / pole))
-
-
-def bent(time: np.ndarray, values: np.ndarray, t: float) -> np.ndarray:
-    """(n,) of bristles that move with values (n,) and are straight at first: z' = (y - |y| z)/t (P. R. Dahl, AIAA
-    Journal 14, 1976, with exponent one), exact along a way that is straight in between."""
-    way = np.diff(time) * (values[1:] + values[:-1]) / 2 / t
-    state, result = 0.0, [0.0]
-    for keep, towards in zip(np.exp(-np.abs(way)).tolist(), np.sign(way).tolist(), strict=True):
-        state = towards + (state - towards) * keep
-        result.append(state)
-    return np.array(result)
+    def values(self, courses: Courses) -> list[np.ndarray]:
+        """Each term (n,) along a trajectory with its shapes at their starts."""
+        shapes = {s.name: s.start for s in self.shapes}
+        return [courses.of(text, shapes) for text in self.seen or self.texts]
 
 
 def groups(variables: list[Variable], duration: float) -> list[Group]:

@@ -13,7 +13,8 @@ from lacuna.discovery.efforts.laws.variants import _aged
 from lacuna.discovery.efforts.places.sites import Site as Place
 from lacuna.discovery.explain import explain
 from lacuna.discovery.law.law import Law, Site
-from lacuna.discovery.law.law_terms import Group, Shape, Variable, evaluate
+from lacuna.discovery.law.law_terms import Group, Shape, Variable
+from lacuna.discovery.law.term_courses import evaluate
 
 from .recorded import concealed, record
 

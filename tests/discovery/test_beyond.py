@@ -14,8 +14,8 @@ from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.fit.lead import fit_believed
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.law.empirical_law import find
-from lacuna.discovery.law.law_terms import Group, evaluate
 from lacuna.discovery.law.response import Response, linear
+from lacuna.discovery.law.term_courses import evaluate
 from lacuna.runtime import RecordedInput
 from tests.discovery.conftest import BELIEVED, write_case, write_model
 
@@ -35,7 +35,7 @@ def losing(folder: Path, torque: str, unit: str, c: float) -> Path:
 def test_a_terms_text_is_what_is_evaluated() -> None:
     trajectory = {"w": np.array([-2.0, 0.0, 4.0]), "time": np.arange(3.0)}
     assert evaluate("sign(w)*abs(w/w_ref)^0.5", trajectory, {"w": 4.0}) == pytest.approx([-(0.5**0.5), 0.0, 1.0])
-    assert Group(("cos(time)*0+1",)).values(trajectory, {})[0] == pytest.approx([1.0, 1.0, 1.0])
+    assert evaluate("cos(time)*0+1", trajectory, {}) == pytest.approx([1.0, 1.0, 1.0])
 
 
 @pytest.mark.parametrize(("omega", "followed"), [(15.0, True), (40.0, True), (85.5, False)])

@@ -9,7 +9,8 @@ from scipy.signal import lsim
 from lacuna.discovery.efforts.places.sites import Site as Place
 from lacuna.discovery.law.forms import FORMS
 from lacuna.discovery.law.law import Law, Site, attach
-from lacuna.discovery.law.law_terms import Group, Shape, Variable, lagged, swinging
+from lacuna.discovery.law.law_terms import Group, Shape, Variable
+from lacuna.discovery.law.term_courses import lagged, swinging
 
 POWER = (Shape("p", "1", 2.0, 0.1, 8.0),)
 RELAXING = Group(("((x1/x1_ref) - lag((x1/x1_ref), {t}))",), (Shape("t", "s", 0.5, 0.1, 5.0),))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 import re
 from types import SimpleNamespace
 
@@ -18,7 +17,8 @@ from lacuna.discovery.efforts.places.sites import MOST
 from lacuna.discovery.efforts.places.sites import Site as Place
 from lacuna.discovery.law.empirical_law import free_of
 from lacuna.discovery.law.law import Law, Site, attach
-from lacuna.discovery.law.law_terms import Group, Variable, evaluate, total
+from lacuna.discovery.law.law_terms import Group, Variable
+from lacuna.discovery.law.term_courses import Courses, evaluate
 from lacuna.discovery.law.unscaled import unscaled
 
 TIME = np.linspace(0, 10, 201)
@@ -85,7 +85,7 @@ def test_every_term_can_be_evaluated_and_is_counted_by_how_many_variables_it_has
         law = Law(place, (group,))
         start = {n: s.start for n, s in law.shapes().items()} | {c: 1.0 for c, _, _ in law.numbered()}
         assert all(f.scale > 0 for f in free_of(law, attach(law), start)), group
-        for course in group.values(paths, sizes):
+        for course in group.values(Courses(paths, sizes)):
             assert np.isfinite(course).all(), group.texts
     one, several = counts(kept, every)
     assert one + several == len({g.texts for g in every})
@@ -136,7 +136,9 @@ def test_a_stop_springs_and_damps_from_where_it_is_met_and_play_does_neither_wit
         spring = np.clip(x.course(values), -q, q) if within else x.course(values) - np.clip(x.course(values), -q, q)
         effort = 3000 * spring + 20 * y.course(values) * (inside if within else ~inside)
         near = [g for g in offered if x.local in g.texts[0] and g.shapes[0].start == 0.5]
-        left = [np.linalg.lstsq(np.column_stack(g.values(paths, sizes)), effort, rcond=None)[1].sum() for g in near]
+        left = [
+            np.linalg.lstsq(np.column_stack(g.values(Courses(paths, sizes))), effort, rcond=None)[1].sum() for g in near
+        ]
         group = near[int(np.argmin(left))]
         assert min(left) < 1e-12
         assert Law(place, (group,)).form({"q_1": 0.5}) == form
@@ -166,7 +168,7 @@ def test_every_term_is_said_without_the_sizes_of_its_variables() -> None:
     sizes = {v.local: v.size for v in kept}
     ranges = {n: (float(c.min()) / sizes[n], float(c.max()) / sizes[n]) for n, c in paths.items() if n != "time"}
     place = Site(Place("equation", "C1*der(T1) = P - q"), "T1", "W", tuple(kept))
-    extremes = {"max": np.maximum, "min": np.minimum, "elapsed": TIME - TIME[0], "integral": partial(total, TIME)}
+    since = {"elapsed": TIME - TIME[0]}
     for group in groups(kept, ranges, 0.05, 10.0):
         law = Law(place, (group,))
         start = {n: s.start for n, s in law.shapes().items()} | {c: 1.0 for c, _, _ in law.numbered()}
@@ -176,7 +178,7 @@ def test_every_term_is_said_without_the_sizes_of_its_variables() -> None:
             known = text.format(**{s: repr(start[n]) for s, n in shapes.items()})
             # of many turns four digits are not enough to compare; onset and warmth begin otherwise than they are said
             if not re.search(r"delay|onset|warmth|sin|cos", known):
-                course, expected = (evaluate(e, extremes | paths, sizes) for e in (said, known))
+                course, expected = (evaluate(e, since | paths, sizes) for e in (said, known))
                 np.testing.assert_allclose(course, expected, rtol=2e-3, atol=2e-3, err_msg=said)
 
 

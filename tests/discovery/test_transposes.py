@@ -13,6 +13,7 @@ from lacuna.discovery.efforts.laws.regression import BLOCK, DISCREPANCIES, Regre
 from lacuna.discovery.efforts.places.sites import Site as Place
 from lacuna.discovery.law.law import Site
 from lacuna.discovery.law.law_terms import Group, Variable
+from lacuna.discovery.law.term_courses import evaluate
 
 from .test_efforts import DATA
 from .test_latent import LATENT, TWO, piece
@@ -73,5 +74,5 @@ def _moving(p: Piece) -> Piece:
 
 
 def _answer(p: Piece, text: str) -> np.ndarray:
-    course = Group((text,)).values({"x1": p.along.values["x"], "time": p.along.time}, {"x1": 1.0})[0]
+    course = evaluate(text, {"x1": p.along.values["x"], "time": p.along.time}, {"x1": 1.0})
     return p.along.response(1, course[:, None])

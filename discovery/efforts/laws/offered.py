@@ -58,7 +58,7 @@ def offered_at(locator: Locator, place: Place, guided: Guided) -> tuple[Regressi
         terms += [g for v in found if v.kind != "rate" for g in dividing(v)]
     if varies:
         terms += [saturating(v) for v in found if v.kind != "rate"]
-    terms = [g for g in terms if not _reads_only(g, found, told)]
+    terms = sorted((g for g in terms if not _reads_only(g, found, told)), key=lambda g: g.memory)
     where = LawSite(place.sites[0], place.location, place.unit, tuple(found), counts(found, terms))
     regression = Regression(guided, where, place.columns)
     return regression, regression.add(terms)

@@ -20,6 +20,7 @@ from lacuna.discovery.efforts.laws.metric import Bases, Metric, least_squares
 from lacuna.discovery.fit.solver import time_limit
 from lacuna.discovery.law.law import Law, Site
 from lacuna.discovery.law.law_terms import Group
+from lacuna.discovery.law.term_courses import Courses
 
 DISCREPANCIES = (0.3, 0.03)  # of the located effort's size, that a law may leave
 NEAR = 5.0  # believed sigmas, within which parameters are looked for
@@ -87,7 +88,8 @@ class Regression:
         """(n, terms) along a recording, at one of the places where the law holds."""
         path = {v.local: v.course(piece.along.values) for v in self.variables[member]} | {"time": piece.along.time}
         with np.errstate(all="ignore"):
-            courses = np.column_stack([c for g in numbers for c in self.groups[g].values(path, self.place.sizes)])
+            along = Courses(path, self.place.sizes)
+            courses = np.column_stack([c for g in numbers for c in self.groups[g].values(along)])
         courses[~np.isfinite(courses)] = 0.0
         return courses
 
