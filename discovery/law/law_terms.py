@@ -1,14 +1,15 @@
 """Terms of empirical laws: expressions in the variables at a place, each made dimensionless by its largest value.
 
-A term's text is Modelica, and what it is along a trajectory is read from that same text (`term_courses.py`). `{p}`, `{k}`, `{tau}` and `{omega}` stand for shape parameters, which a fit may move. `lag(x, tau)` is x
-behind a first-order lag that begins at rest: a state of the law's own; `warmth(x, tau)` begins cold, at nothing, as
-does `total(x, tau)`, all of x since the start, over tau, and `spent(x, tau)`, the share of what x uses up that is gone.
-`swing(x, w, z)` is what a mass on a spring of its own does to what moves at x, over that mass times w: the stretch of
-the spring, and its damper, of damping ratio z. `delay(x, late, apart)` is x as it was, kept in samples so far apart;
-before the start it was what it is there, or nothing: `onset(x, late, apart)`. `dry(x)` truly sticks: it has modes and
-events. `bounded(x, q)` is what keeps a rate x within q either way: what it would be beyond that without the effort; it
-has modes and events, too. `hysteresis(y, t)` is the bend, up to one, of bristles that what moves at y drags along: by
-1/t of its way, less the more they are bent.
+A term's text is Modelica, and what it is along a trajectory is read from that same text (`term_courses.py`). `{p}`,
+`{k}`, `{tau}` and `{omega}` stand for shape parameters, which a fit may move. `lag(x, tau)` is x behind a first-order
+lag that begins at rest: a state of the law's own; `warmth(x, tau)` begins cold, at nothing, as does `total(x, tau)`,
+all of x since the start, over tau, and `spent(x, tau)`, the share of what x uses up that is gone. `swing(x, w, z)` is
+what a mass on a spring of its own does to what moves at x, over that mass times w: the stretch of the spring, and its
+damper, of damping ratio z. `delay(x, late, apart)` is x as it was, kept in samples so far apart; before the start it
+was what it is there, or nothing: `onset(x, late, apart)`. `dry(x)` truly sticks: it has modes and events. `bounded(x,
+q)` is what keeps a rate x within q either way: what it would be beyond that without the effort; it has modes and
+events, too. `hysteresis(y, t)` is the bend, up to one, of bristles that what moves at y drags along: by 1/t of its way,
+less the more they are bent.
 """
 
 from __future__ import annotations
