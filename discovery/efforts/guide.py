@@ -14,6 +14,7 @@ from lacuna.discovery.efforts.latent.smoother import acting, courses
 from lacuna.discovery.efforts.latent.thinned import thinned_all
 from lacuna.discovery.efforts.located import Locator, Site, response
 from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.fit.solver.side_by_side import side_by_side
 from lacuna.runtime import SimulationError
 
 Efforts = list[list[tuple[int, np.ndarray]]]  # of each recording: column of the drive, course
@@ -108,7 +109,7 @@ def _followed(
 
 def _led(locator: Locator, point: dict[str, float], efforts: Efforts) -> list[Piece]:
     """The linear model about the runs from `point` with these efforts on each recording."""
-    return [locator.piece(point, r, own) for r, own in zip(locator.case.fit, efforts, strict=True)]
+    return side_by_side(lambda one: locator.piece(point, *one), list(zip(locator.case.fit, efforts, strict=True)))
 
 
 def _missed(locator: Locator, led: Sequence[Piece], efforts: Efforts) -> float:

@@ -20,6 +20,7 @@ from lacuna.discovery.efforts.places.place import Place
 from lacuna.discovery.fit.evidence import SIGMAS
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.fit.solver.side_by_side import side_by_side
 from lacuna.runtime import RecordedInput
 
 SIZES = 10.0 ** np.arange(-1.0, 2.1, 0.5)  # of the effort that would explain the misfit by itself: half decades
@@ -48,7 +49,7 @@ class Locator:
         self.noise = np.array([base.noise[s.column].std for s in case.outputs])
         self.sigma = np.array([f.sigma or f.scale for f in self.free])
         self.sums: dict[int, tuple[int, ...]] = {}  # columns in which one course acts at all places of a family
-        pieces = [self.piece(self.point, r) for r in case.fit]
+        pieces = side_by_side(lambda r: self.piece(self.point, r), case.fit)
         self.places = opened.places([p.along for p in pieces])
         families = [p.columns for p in self.places if p.as_one]
         self.sums = dict(enumerate(families, pieces[0].along.drive.shape[2]))

@@ -18,7 +18,7 @@ from lacuna.discovery.experiment.separation import (
     spread,
 )
 from lacuna.discovery.experiment.waveforms import Waveform, as_recording, waveforms
-from lacuna.discovery.fit.solver.least_squares import _pool
+from lacuna.discovery.fit.solver.side_by_side import side_by_side
 from lacuna.discovery.naming.comparison import COLOUR
 
 CLOSER = 4  # candidates whose rivals are refitted: those that differ most before
@@ -78,7 +78,7 @@ def propose(case: Case, rivals: Sequence[Rival], progress: Progress = lambda tex
     of = ranges(case)
     candidates = waveforms(case, of, SEEDS[0])
     sigma = spread(rivals[0].fit, {c: min(t, COLOUR) for c, t in rivals[0].fit.correlation().items()})
-    tried = list(_pool.map(lambda k: _predictions(case, rivals, candidates[k], k), range(len(candidates))))
+    tried = side_by_side(lambda k: _predictions(case, rivals, candidates[k], k), range(len(candidates)))
     able = [(w, p) for w, p in zip(candidates, tried, strict=True) if p is not None]
     able.sort(key=lambda item: -_before(item[1], sigma))
     found = [_proposal(case, rivals, w, p, of, sigma) for w, p in able[:CLOSER]]

@@ -12,9 +12,9 @@ from lacuna.discovery.catalogue.places import Device, Line, Shaft
 from lacuna.discovery.efforts.places import sites
 from lacuna.discovery.efforts.places.families import said_of_all
 from lacuna.discovery.efforts.places.insertion import States, component
-from lacuna.discovery.law.forms import form_of, picked
-from lacuna.discovery.law.law_terms import Group, Shape, Variable
-from lacuna.discovery.law.unscaled import unscaled
+from lacuna.discovery.law.terms.forms import form_of, picked
+from lacuna.discovery.law.terms.law_terms import Group, Shape, Variable
+from lacuna.discovery.law.terms.unscaled import unscaled
 
 
 @dataclass(frozen=True)

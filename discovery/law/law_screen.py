@@ -13,9 +13,9 @@ from lacuna.discovery.catalogue.places import Device, Line, Shaft
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.time_limit import check
 from lacuna.discovery.law.law import Law, Site, component_of
-from lacuna.discovery.law.law_terms import Group, Variable, groups
 from lacuna.discovery.law.response import linear, respond
-from lacuna.discovery.law.term_courses import Courses
+from lacuna.discovery.law.terms.courses import Courses
+from lacuna.discovery.law.terms.law_terms import Group, Variable, groups
 from lacuna.discovery.naming.screen import Candidate, Screen
 
 SHORTLIST = 24  # groups that are tried on what they were not fitted to

@@ -18,7 +18,7 @@ from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.fit.fit import Fit, Objective
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import where_measured
-from lacuna.discovery.fit.solver.least_squares import _pool
+from lacuna.discovery.fit.solver.side_by_side import side_by_side
 from lacuna.runtime import RecordedInput, SimulationError
 
 LINEAR = (1e-3, 0.3)  # sizes of an answer that is above rounding and still proportional, in shares of the residual
@@ -80,7 +80,7 @@ def respond(machine: Machine, base: Fit, probe: int, hats: int) -> Response:
         i, j = task
         blocks[i][:, j] = one((i, j, amount))
 
-    list(_pool.map(fill, [(i, j) for i in range(len(recordings)) for j in range(hats)]))
+    side_by_side(fill, [(i, j) for i in range(len(recordings)) for j in range(hats)])
     return Response(nodes, blocks)
 
 

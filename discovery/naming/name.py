@@ -17,7 +17,7 @@ from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.trace import left, note_screened
 from lacuna.discovery.fit.evidence import is_noise, nearly_noise
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.fit.solver.least_squares import WORKERS
+from lacuna.discovery.fit.solver.side_by_side import WORKERS
 from lacuna.discovery.fit.solver.time_limit import TimeUp, check
 from lacuna.discovery.naming.candidate_fit import fit_candidate, own_machine, shared
 from lacuna.discovery.naming.comparison import (

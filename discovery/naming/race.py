@@ -12,7 +12,7 @@ from dataclasses import replace
 from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.fit.evidence import nearly_noise
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.fit.solver.least_squares import WORKERS
+from lacuna.discovery.fit.solver.side_by_side import WORKERS
 from lacuna.discovery.naming.screen import Candidate
 
 ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving

@@ -13,7 +13,7 @@ from functools import partial
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit, linearised
-from lacuna.discovery.fit.solver.least_squares import WORKERS
+from lacuna.discovery.fit.solver.side_by_side import WORKERS
 from lacuna.discovery.naming.candidate_fit import fit_candidate
 from lacuna.discovery.naming.comparison import TIE, Progress, best_correlation, score
 from lacuna.discovery.naming.race import HALF, NEAR, ROUNDS

@@ -13,8 +13,8 @@ from lacuna.discovery.efforts.laws.variants import _aged
 from lacuna.discovery.efforts.places.sites import Site as Place
 from lacuna.discovery.explain import explain
 from lacuna.discovery.law.law import Law, Site
-from lacuna.discovery.law.law_terms import Group, Shape, Variable
-from lacuna.discovery.law.term_courses import evaluate
+from lacuna.discovery.law.terms.courses import evaluate
+from lacuna.discovery.law.terms.law_terms import Group, Shape, Variable
 
 from .recorded import concealed, record
 

@@ -15,7 +15,7 @@ from lacuna.discovery.fit.lead import fit_believed
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.law.empirical_law import find
 from lacuna.discovery.law.response import Response, linear
-from lacuna.discovery.law.term_courses import evaluate
+from lacuna.discovery.law.terms.courses import evaluate
 from lacuna.runtime import RecordedInput
 from tests.discovery.conftest import BELIEVED, write_case, write_model
 

@@ -7,10 +7,10 @@ import pytest
 from scipy.signal import lsim
 
 from lacuna.discovery.efforts.places.sites import Site as Place
-from lacuna.discovery.law.forms import FORMS
 from lacuna.discovery.law.law import Law, Site, attach
-from lacuna.discovery.law.law_terms import Group, Shape, Variable
-from lacuna.discovery.law.term_courses import lagged, swinging
+from lacuna.discovery.law.terms.courses import lagged, swinging
+from lacuna.discovery.law.terms.forms import FORMS
+from lacuna.discovery.law.terms.law_terms import Group, Shape, Variable
 
 POWER = (Shape("p", "1", 2.0, 0.1, 8.0),)
 RELAXING = Group(("((x1/x1_ref) - lag((x1/x1_ref), {t}))",), (Shape("t", "s", 0.5, 0.1, 5.0),))

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.explain import explain
-from lacuna.discovery.law.term_courses import bent
+from lacuna.discovery.law.terms.courses import bent
 
 from .recorded import concealed, record
 from .test_sensors import CART, CASE

@@ -16,7 +16,7 @@ from lacuna.discovery.efforts.places import openable as opening
 from lacuna.discovery.efforts.places.openable import RIGID
 from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.explain import explain, write_amended
-from lacuna.discovery.law.term_courses import evaluate
+from lacuna.discovery.law.terms.courses import evaluate
 from lacuna.runtime import Model
 
 from .recorded import record, truth

@@ -20,7 +20,7 @@ from lacuna.discovery.efforts.places.place import Place, told_apart
 from lacuna.discovery.efforts.places.sites import Site
 from lacuna.discovery.law.empirical_law import fitted_law
 from lacuna.discovery.law.law import Law
-from lacuna.discovery.law.law_terms import Group, Shape
+from lacuna.discovery.law.terms.law_terms import Group, Shape
 from lacuna.discovery.steps import fitted
 
 from .recorded import concealed, record

@@ -30,7 +30,7 @@ from lacuna.discovery.fit.objective import noise_of
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.law.empirical_law import fitted_law
 from lacuna.discovery.law.law import Law
-from lacuna.discovery.law.law_terms import Group
+from lacuna.discovery.law.terms.law_terms import Group
 from lacuna.discovery.law.together.pairs import Place, paired
 from lacuna.discovery.law.together.several import _taken_out, find_long_anew, finding, is_of_form, simplify
 from lacuna.discovery.naming.candidate_fit import without

@@ -17,9 +17,9 @@ from lacuna.discovery.efforts.places.sites import MOST
 from lacuna.discovery.efforts.places.sites import Site as Place
 from lacuna.discovery.law.empirical_law import free_of
 from lacuna.discovery.law.law import Law, Site, attach
-from lacuna.discovery.law.law_terms import Group, Variable
-from lacuna.discovery.law.term_courses import Courses, evaluate
-from lacuna.discovery.law.unscaled import unscaled
+from lacuna.discovery.law.terms.courses import Courses, evaluate
+from lacuna.discovery.law.terms.law_terms import Group, Variable
+from lacuna.discovery.law.terms.unscaled import unscaled
 
 TIME = np.linspace(0, 10, 201)
 ROOM = {

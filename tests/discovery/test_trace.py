@@ -18,7 +18,7 @@ from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.law.empirical_law import unfitted
 from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law_screen import sites
-from lacuna.discovery.law.law_terms import Group
+from lacuna.discovery.law.terms.law_terms import Group
 
 from .conftest import BELIEVED, conceal
 

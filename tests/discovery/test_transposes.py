@@ -12,8 +12,8 @@ from lacuna.discovery.efforts.latent.thinned import thinned
 from lacuna.discovery.efforts.laws.regression import BLOCK, DISCREPANCIES, Regression
 from lacuna.discovery.efforts.places.sites import Site as Place
 from lacuna.discovery.law.law import Site
-from lacuna.discovery.law.law_terms import Group, Variable
-from lacuna.discovery.law.term_courses import evaluate
+from lacuna.discovery.law.terms.courses import evaluate
+from lacuna.discovery.law.terms.law_terms import Group, Variable
 
 from .test_efforts import DATA
 from .test_latent import LATENT, TWO, piece

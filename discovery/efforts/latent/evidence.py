@@ -11,6 +11,7 @@ import numpy as np
 from lacuna.analysis.spectra.library import library, pointer
 from lacuna.discovery.efforts.latent.chains import Latent, Piece
 from lacuna.discovery.fit.solver import time_limit
+from lacuna.discovery.fit.solver.side_by_side import side_by_side
 
 
 @dataclass
@@ -47,14 +48,18 @@ def products(pieces: Sequence[Piece], latent: Latent) -> tuple[np.ndarray, np.nd
 
 
 def _products(pieces: Sequence[Piece], latent: Latent, columns: int) -> tuple[np.ndarray, np.ndarray]:
-    gram, logdet = np.zeros((len(latent.size), columns, columns)), np.zeros(len(latent.size))
     forces, _forces = latent.of_library()
-    for piece in pieces:
+
+    def of_one(piece: Piece) -> tuple[np.ndarray, np.ndarray]:
         time_limit.check()
+        gram, logdet = np.zeros((len(latent.size), columns, columns)), np.zeros(len(latent.size))
         model = piece.along.model(piece.noise, piece.start)
         data, seen = np.ascontiguousarray(piece.data), np.ascontiguousarray(piece.seen)
         if library().lacuna_latent_evidence(
             model, forces, pointer(data), seen.ctypes.data, columns, pointer(gram), pointer(logdet)
         ):
             raise np.linalg.LinAlgError("what an effort may do is beyond numbers")
-    return gram, logdet
+        return gram, logdet
+
+    grams, logdets = zip(*side_by_side(of_one, pieces), strict=True)
+    return sum(grams), sum(logdets)

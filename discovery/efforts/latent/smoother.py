@@ -17,6 +17,7 @@ import numpy as np
 from lacuna.analysis.spectra.library import library, pointer
 from lacuna.discovery.efforts.latent.chains import Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import products
+from lacuna.discovery.fit.solver.side_by_side import side_by_side
 
 
 class Whitener:
@@ -34,33 +35,36 @@ class Whitener:
         """(n, y, j) of columns (n, y, j) on each recording, in units of their standard deviations; NaN where there is
         no reading."""
         forces, _forces = self.latent.of_library()
-        result = []
-        for piece, part in zip(self.pieces, columns, strict=True):
+
+        def of_one(pair: tuple[Piece, np.ndarray]) -> np.ndarray:
+            piece, part = pair
             seen = np.ascontiguousarray(piece.seen)
             white = np.where(seen[:, :, None], part, np.nan)
             model = piece.along.model(piece.noise, piece.start)
             _checked(library().lacuna_latent_whiten(model, forces, pointer(white), seen.ctypes.data, white.shape[2]))
-            result.append(white)
-        return result
+            return white
+
+        return side_by_side(of_one, list(zip(self.pieces, columns, strict=True)))
 
     def transposed(self, rows: np.ndarray) -> list[np.ndarray]:
         """(n, y, j) on each recording: readings whose products with any others are those of whitened rows (rows, j)
         with those others whitened."""
         forces, _forces = self.latent.of_library()
-        result, at = [], 0
-        for piece in self.pieces:
+        ends = np.cumsum([p.seen.sum() for p in self.pieces])
+
+        def of_one(pair: tuple[Piece, np.ndarray]) -> np.ndarray:
+            piece, own = pair
             seen = np.ascontiguousarray(piece.seen)
-            count = int(seen.sum())
             data = np.zeros((*seen.shape, rows.shape[1]))
-            data[seen] = rows[at : at + count]
-            at += count
+            data[seen] = own
             model = piece.along.model(piece.noise, piece.start)
             failed = library().lacuna_latent_whiten_transposed(
                 model, forces, pointer(data), seen.ctypes.data, rows.shape[1]
             )
             _checked(failed)
-            result.append(data)
-        return result
+            return data
+
+        return side_by_side(of_one, list(zip(self.pieces, np.split(rows[: ends[-1]], ends[:-1]), strict=True)))
 
     @property
     def logdet(self) -> float:

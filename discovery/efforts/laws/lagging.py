@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from lacuna.discovery.efforts.places.insertion import KEPT
-from lacuna.discovery.law.law_terms import Group, Shape, Variable
+from lacuna.discovery.law.terms.law_terms import Group, Shape, Variable
 
 DAMPED = 0.1  # damping ratio of what swings, where it starts: as most joints and mounts have
 OCTAVES = 3.0  # from one time constant of a relaxation to the next: half a bandwidth either way

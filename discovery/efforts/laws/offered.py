@@ -19,7 +19,7 @@ from lacuna.discovery.efforts.places import sites
 from lacuna.discovery.efforts.places.families import is_shared, meant
 from lacuna.discovery.efforts.places.place import Place
 from lacuna.discovery.law.law import Site as LawSite
-from lacuna.discovery.law.law_terms import Group, Variable
+from lacuna.discovery.law.terms.law_terms import Group, Variable
 from lacuna.units import per_second
 
 

@@ -19,8 +19,8 @@ from lacuna.discovery.efforts.laws.beside import Beside
 from lacuna.discovery.efforts.laws.metric import Bases, Metric, least_squares
 from lacuna.discovery.fit.solver import time_limit
 from lacuna.discovery.law.law import Law, Site
-from lacuna.discovery.law.law_terms import Group
-from lacuna.discovery.law.term_courses import Courses
+from lacuna.discovery.law.terms.courses import Courses
+from lacuna.discovery.law.terms.law_terms import Group
 
 DISCREPANCIES = (0.3, 0.03)  # of the located effort's size, that a law may leave
 NEAR = 5.0  # believed sigmas, within which parameters are looked for

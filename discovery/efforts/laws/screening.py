@@ -15,8 +15,8 @@ from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.places.place import Place
 from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law_screen import Proposal
-from lacuna.discovery.law.law_terms import AGES, DRY, Group, Variable
-from lacuna.discovery.law.term_courses import evaluate
+from lacuna.discovery.law.terms.courses import evaluate
+from lacuna.discovery.law.terms.law_terms import AGES, DRY, Group, Variable
 
 Scored = tuple[float, Regression, tuple[int, ...]]  # deviance and prices, groups of a regression
 

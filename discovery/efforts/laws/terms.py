@@ -14,8 +14,8 @@ import numpy as np
 
 from lacuna.discovery.efforts.laws.lagging import ageing, late, remembering, swinging
 from lacuna.discovery.efforts.places.sites import MOST
-from lacuna.discovery.law.forms import is_of_several
-from lacuna.discovery.law.law_terms import BEYOND, DRY, EXPONENTS, Group, Shape, Variable, exponent, stribeck
+from lacuna.discovery.law.terms.forms import is_of_several
+from lacuna.discovery.law.terms.law_terms import BEYOND, DRY, EXPONENTS, Group, Shape, Variable, exponent, stribeck
 
 LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers
 CYCLES = 30  # of a wave along a variable, over the range that it has

@@ -13,7 +13,7 @@ import numpy as np
 from lacuna.discovery.catalogue.attachment import OWN
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.places.sites import MOST
-from lacuna.discovery.law.law_terms import Variable
+from lacuna.discovery.law.terms.law_terms import Variable
 from lacuna.runtime.model import Variable as ModelVariable
 from lacuna.units import per_second
 

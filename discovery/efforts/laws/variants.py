@@ -7,7 +7,7 @@ import re
 
 from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law_screen import Proposal
-from lacuna.discovery.law.law_terms import BEYOND, DRY, Group, Shape, Variable, exponent, stribeck
+from lacuna.discovery.law.terms.law_terms import BEYOND, DRY, Group, Shape, Variable, exponent, stribeck
 
 
 def varied(best: Proposal) -> list[Proposal]:

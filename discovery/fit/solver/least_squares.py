@@ -11,20 +11,16 @@ of a quasi-Newton method for nonlinear equations with a sparse Jacobian, 1970.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from itertools import islice
-import os
 
 import numpy as np
 from scipy.optimize import lsq_linear
 
 from lacuna.discovery.fit.solver import time_limit
 from lacuna.discovery.fit.solver.free import Free, clipped, pulls
+from lacuna.discovery.fit.solver.side_by_side import side_by_side
 from lacuna.discovery.fit.solver.step import Evaluation, downhill
-
-WORKERS = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-_pool = ThreadPoolExecutor(max_workers=WORKERS)
 
 TRUSTED = 0.3  # times the predicted drop, below which a Jacobian is taken anew
 LARGEST = np.finfo(float).max ** 0.25  # a residual beyond it has no J'J: it is squared, as is its quotient by a step
@@ -102,7 +98,7 @@ class Problem:
         asked = pieces or [list(range(self.pieces))] * len(points)
         tasks = [(self._named(p), k) for p, ks in zip(points, asked, strict=True) for k in ks]
         self.simulations += len(tasks)
-        parts = _pool.map(self._weighted, tasks)
+        parts = iter(side_by_side(self._weighted, tasks))
         groups = [list(islice(parts, len(ks))) for ks in asked]
         return [None if any(r is None or not np.all(np.abs(r) < LARGEST) for r in group) else group for group in groups]
 

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import math
 import re
 
-from lacuna.discovery.law.law_terms import AGES, Variable
+from lacuna.discovery.law.terms.law_terms import AGES, Variable
 from lacuna.units import parse_unit
 
 NEAR = 0.15  # by which an exponent may differ from that of a form

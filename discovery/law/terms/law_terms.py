@@ -1,6 +1,6 @@
 """Terms of empirical laws: expressions in the variables at a place, each made dimensionless by its largest value.
 
-A term's text is Modelica, and what it is along a trajectory is read from that same text (`term_courses.py`). `{p}`,
+A term's text is Modelica, and what it is along a trajectory is read from that same text (`courses.py`). `{p}`,
 `{k}`, `{tau}` and `{omega}` stand for shape parameters, which a fit may move. `lag(x, tau)` is x behind a first-order
 lag that begins at rest: a state of the law's own; `warmth(x, tau)` begins cold, at nothing, as does `total(x, tau)`,
 all of x since the start, over tau, and `spent(x, tau)`, the share of what x uses up that is gone. `swing(x, w, z)` is
@@ -22,7 +22,7 @@ import re
 import numpy as np
 
 from lacuna.discovery.efforts.places.families import meant
-from lacuna.discovery.law.term_courses import Courses
+from lacuna.discovery.law.terms.courses import Courses
 
 STICKS = "dry{x}"  # its sign while it moves; at rest whatever holds it there, up to one in size
 DRY = "tanh(50*{x})"  # the sign of a variable, smooth over two per cent of its range: no second sticking element
