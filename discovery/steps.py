@@ -30,7 +30,7 @@ from lacuna.discovery.fit.solver.time_limit import TimeUp
 from lacuna.discovery.fit.tracking import trackable
 from lacuna.discovery.law.beyond import explain_beyond
 from lacuna.discovery.law.locate import effort_at, locate, place_of
-from lacuna.discovery.law.open_world import begun_open, explain_open, take_at_last
+from lacuna.discovery.law.open_world import begun_open, equations_first, explain_open, take_at_last
 from lacuna.discovery.law.together.nearby import go_on_nearby
 from lacuna.discovery.naming.comparison import MIN_GAIN
 from lacuna.discovery.naming.dips import explored, is_smooth
@@ -158,15 +158,19 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
     try:
         places_known = begun_open(unbegun, library, progress)
         search = _begun(unbegun)
-        search.restarts = bool(shafts)
-        search.run(progress, most=1)
-        held = unbegun
-        if search.lost():
-            search, held = _anew(result, search, unbegun, shafts, progress)
-        if not go_on_nearby(search, library, progress):
-            explain_beyond(search, held, progress)
-        unbegun = held if search.amendment.trackers or not search.lead.direct else unbegun
-        explain_open(search, unbegun, library, progress, places_known, located)
+        first = places_known is not None and equations_first(unbegun, places_known, progress)
+        if first:
+            explain_open(search, unbegun, library, progress, places_known, located)
+        if not search.findings:
+            held, search.restarts = unbegun, bool(shafts)
+            search.run(progress, most=1)
+            if search.lost():
+                search, held = _anew(result, search, unbegun, shafts, progress)
+            if not go_on_nearby(search, library, progress):
+                explain_beyond(search, held, progress)
+            unbegun = held if search.amendment.trackers or not search.lead.direct else unbegun
+            if not first:
+                explain_open(search, unbegun, library, progress, places_known, located)
         if not search.findings:
             result.instead = sensor_instead(search, catalogue.read(library), progress)
         if result.instead:

@@ -42,7 +42,7 @@ from lacuna.discovery.naming.comparison import (
     told_by_data,
 )
 from lacuna.discovery.naming.judge import try_judge
-from lacuna.discovery.naming.name import Finding, Naming
+from lacuna.discovery.naming.name import Finding, Naming, screen_all
 from lacuna.discovery.naming.race import HALF
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.naming.search import UNTOLD, Search
@@ -64,6 +64,17 @@ def begun_open(unbegun: Search, library: Library, progress: Progress) -> Found |
     beaten = {s.location for s in found.sites if s.place is None and 1.0 - s.explains > FAR * (1.0 - best)}
     unbegun.blameless = frozenset(s.variable for s in case.outputs if f"sensor:{s.column}" in beaten)
     return found
+
+
+def equations_first(unbegun: Search, found: Found, progress: Progress) -> bool:
+    """Whether no error of a sensor, all that the catalogue knows, promises half of what an effort at one place of the
+    equations explains: laws are then looked for before such errors, which could but stand for them."""
+    case, amendment = unbegun.case, unbegun.amendment
+    best = max((s.explains for s in found.sites if s.place is not None), default=0.0)
+    every = enumerate_attachments(case, amendment.structure, unbegun.effects, amendment)
+    errors = [a for a in every if a.variable not in unbegun.blameless]
+    promising, _ = screen_all(case, amendment, errors, unbegun.fit, progress)
+    return all(c.predicted < HALF * best for c in promising)
 
 
 def explain_open(
