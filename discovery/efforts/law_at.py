@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.fit.evidence import astray, common_correlation, settled
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.lead import joined
+from lacuna.discovery.fit.solver.side_by_side import apart
 from lacuna.discovery.law.empirical_law import race, simplified, unfitted
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.naming.comparison import TIE, note_laws, rival_score
@@ -60,8 +62,9 @@ class LawsAt:
         case, amendment, base = self.case, self.amendment, self.base
         for proposal in tried:
             self.progress(f"fitting a law at {self.site.location}: {proposal.law.text()}")
-            proposal.candidate = begun_at(case, amendment, base, proposal, guided.point)
-        begun = [p.candidate for p in tried]
+        begun = apart(lambda p: begun_at(case, amendment, base, p, guided.point), tried)
+        for proposal, candidate in zip(tried, begun, strict=True):
+            proposal.candidate = candidate
         self._begun += begun
         started = [c for c in begun if c is not None]
         race(case, base, started, self.best and self.best.candidate)
@@ -106,10 +109,9 @@ def _near(fitted: list[Proposal], best: Proposal, base: Fit) -> list[Proposal]:
 
 def _varied(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> list[Proposal]:
     """A fitted law's variants, fitted from there side by side."""
-    found = varied(best)
-    for other in found:
-        other.candidate = unfitted(case, amendment, base, other.law, other.start, best.candidate.fit.point)
-    found = [other for other in found if other.candidate is not None]
+    found, point = varied(best), best.candidate.fit.point
+    begun = apart(lambda p: unfitted(case, amendment, base, p.law, p.start, point), found)
+    found = [replace(p, candidate=c) for p, c in zip(found, begun, strict=True) if c is not None]
     race(case, base, [other.candidate for other in found], best.candidate)
     return [other for other in found if other.candidate.fit is not None]
 

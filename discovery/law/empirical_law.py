@@ -24,6 +24,7 @@ from lacuna.discovery.fit.evidence import common_correlation, is_noise
 from lacuna.discovery.fit.fit import Fit, fit, linearised
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.fit.solver.side_by_side import apart
 from lacuna.discovery.fit.zeros import beside_zeros
 from lacuna.discovery.law.law import Law, attach, component_of
 from lacuna.discovery.law.law_screen import Effort, Proposal, screened, sites
@@ -51,10 +52,11 @@ def find(
     while best is None or (len(best.law.groups) < most and not is_noise(best.candidate.fit)):
         here, law = (base, None) if best is None else (best.candidate.fit, best.law)
         proposals = screened(case, here, law, efforts, progress)
-        for proposal in proposals[:FITTED]:
+        tried = proposals[:FITTED]
+        for proposal in tried:
             progress(f"fitting a law at {proposal.law.site.location}")
-            proposal.candidate = fitted_law(case, amendment, base, proposal.law, proposal.start)
-        fitted = [p for p in proposals[:FITTED] if p.candidate is not None]
+        candidates = apart(lambda p: fitted_law(case, amendment, base, p.law, p.start), tried)
+        fitted = [replace(p, candidate=c) for p, c in zip(tried, candidates, strict=True) if c is not None]
         if not fitted:
             break
         correlation = common_correlation(p.candidate.fit for p in fitted)
@@ -62,7 +64,7 @@ def find(
         before = 0.0 if best is None else score(best.candidate, base, correlation)
         after = score(chosen.candidate, base, correlation)
         progress(f"law at {chosen.law.site.location}: {chosen.law.text()}: {after:.1f}")
-        note_laws([p.candidate for p in proposals[:FITTED] if p is not chosen], chosen.candidate, base)
+        note_laws([c for c in candidates if c is not chosen.candidate], chosen.candidate, base)
         if after > before - 2 * np.log(len(proposals)):  # ln of the squared number of terms that were looked at
             break
         best = chosen
@@ -156,10 +158,9 @@ def held_of(law: Law, attachment: Attachment, start: dict[str, float]) -> dict[s
 
 def simplified(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> Proposal:
     """The law without coefficients that may be zero, and with whole exponents and orders where the data allows them."""
-    shorter: list[Proposal] = []
-    for simpler in _simpler(best):
-        simpler.candidate = fitted_law(case, amendment, base, simpler.law, simpler.start, best.candidate.fit.point)
-        shorter += [simpler] if simpler.candidate is not None else []
+    simpler, point = _simpler(best), best.candidate.fit.point
+    fitted = apart(lambda p: fitted_law(case, amendment, base, p.law, p.start, point), simpler)
+    shorter = [replace(p, candidate=c) for p, c in zip(simpler, fitted, strict=True) if c is not None]
     correlation = best.candidate.fit.correlation()
     chosen = min([best, *shorter], key=lambda p: rival_score(p.candidate, base, correlation))
     return best if chosen is best else simplified(case, amendment, base, chosen)

@@ -6,14 +6,13 @@ Laws that the best one contains begin where it ended; and so do its rivals.
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
 
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit, linearised
-from lacuna.discovery.fit.solver.side_by_side import WORKERS
+from lacuna.discovery.fit.solver.side_by_side import apart
 from lacuna.discovery.naming.candidate_fit import fit_candidate
 from lacuna.discovery.naming.comparison import TIE, Progress, best_correlation, score
 from lacuna.discovery.naming.race import HALF, NEAR, ROUNDS
@@ -104,20 +103,16 @@ def _contend(case: Case, base: Fit, candidates: list[Candidate], progress: Progr
         return
     screen = Screen(there, telling_recordings(there), coarsely=True)
 
-    def fit_again(candidate: Candidate, again: Candidate) -> None:
+    def fit_again(pair: tuple[Candidate, Candidate]) -> None:
+        candidate, again = pair
         found = _fit_again(case, there, again, lambda f: f.deviance() <= candidate.fit.deviance(), progress)
         if found is not None:
             candidate.fit, candidate.free, candidate.fixed = found, again.free, again.fixed
 
-    with ThreadPoolExecutor(WORKERS) as pool:
-        prepared = list(pool.map(partial(_prepared, screen), close))
-        least = AS_GOOD * (1.0 - prepared[0].predicted)
-        pairs = [
-            (c, again)
-            for c, again in zip(close, prepared, strict=True)
-            if c.fit.deviance() > sure and 1.0 - again.predicted <= least
-        ]
-        list(pool.map(fit_again, *zip(*pairs, strict=True)))
+    prepared = apart(partial(_prepared, screen), close)
+    least = AS_GOOD * (1.0 - prepared[0].predicted)
+    pairs = zip(close, prepared, strict=True)
+    apart(fit_again, [p for p in pairs if p[0].fit.deviance() > sure and 1.0 - p[1].predicted <= least])
 
 
 def _prepared(screen: Screen, candidate: Candidate) -> Candidate:

@@ -17,3 +17,9 @@ Result = TypeVar("Result")
 def side_by_side(function: Callable[[Task], Result], tasks: Iterable[Task]) -> list[Result]:
     """What a function gives for each task, in their order. No task may itself call this: all threads might wait."""
     return list(_pool.map(function, tasks))
+
+
+def apart(function: Callable[[Task], Result], tasks: Iterable[Task]) -> list[Result]:
+    """The same in threads of its own, for tasks that are made of others: whole fits, models to be compiled."""
+    with ThreadPoolExecutor(WORKERS) as pool:
+        return list(pool.map(function, tasks))

@@ -24,6 +24,7 @@ from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.fit.evidence import LEFT, common_correlation, excess, nearly_noise, pays
 from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.solver.side_by_side import apart
 from lacuna.discovery.law.empirical_law import fitted_law, simplified, unmoved
 from lacuna.discovery.law.law import attach, component_of
 from lacuna.discovery.law.law_screen import Proposal
@@ -197,10 +198,12 @@ class Joining:
         best second one."""
         if not ones or not twos:
             return best
-        for two in twos:
-            best = self._better(best, self._joint(best.one if best else ones[0], two))
-        for one in ones if best is None or best.one is not ones[0] else ones[1:]:
-            best = self._better(best, self._joint(one, best.two if best else twos[0]))
+        first = best.one if best else ones[0]
+        for both in apart(lambda two: self._joint(first, two), twos):
+            best = self._better(best, both)
+        second = best.two if best else twos[0]
+        for both in apart(lambda one: self._joint(one, second), ones if first is not ones[0] else ones[1:]):
+            best = self._better(best, both)
         return best
 
     def _better(self, one: Both | None, other: Both | None) -> Both | None:
@@ -250,7 +253,7 @@ class Joining:
         if after is None:
             return None
         own, other = joint.two.candidate, replace(both.two.candidate, fit=joint.fit)
-        alone, rest = (fitted_law(self.case, self.amendment, base, p.law, p.start, p.point) for p in (one, two))
+        alone, rest = apart(lambda p: fitted_law(self.case, self.amendment, base, p.law, p.start, p.point), (one, two))
         if not all(_is_needed(c, beside) for c, beside in ((other, alone), (own, rest))):
             return None
         between = (alone and try_judge(alone.machine, alone.fit.point)) or unbegun.judgement
