@@ -16,6 +16,7 @@ from lacuna.discovery.explanation.input_error import moved_as_one, offset_instea
 from lacuna.discovery.explanation.wording import at
 from lacuna.discovery.fit.evidence import (
     CLEARLY,
+    LEAST_TAKEN,
     astray,
     common_correlation,
     like_noise,
@@ -36,8 +37,6 @@ from lacuna.discovery.naming.judge import Judgement
 from lacuna.discovery.naming.name import AS_LIKELY, Finding
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.runtime import SimulationError
-
-LEAST_TAKEN = 0.2  # of the error above noise on unseen recordings, that findings must take away
 
 
 def decide(result: Explanation) -> None:

@@ -22,6 +22,7 @@ ROUGH_SLACK = 0.3  # RMS misfit, in units of the noise, that the end of a fit on
 FAR = 10.0  # level of a signal, in units of its noise, from which the best hypothesis is taken to have lost its way
 SPREAD = 0.005  # relative spread of an RMS over 20 000 samples of noise: a smaller gain is none
 CLEARLY = 0.8  # times the NRMSE of the signals in their geometric mean, from which a model is better
+LEAST_TAKEN = 0.2  # of the error above noise on unseen recordings, that findings must take away
 TOLERANCE = 0.04  # of the noise level, within which it counts as known
 COLOURED = 5.0  # RMS, in units of the noise as estimated, that coloured noise may have
 TAILS = 2.0  # RMS over what the median says it is, from which a residual is no noise: a misfit at some moments

@@ -14,9 +14,17 @@ import numpy as np
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.catalogue.trace import left
-from lacuna.discovery.efforts.find import WORTH, Found, add_laws, alike_first, is_family, places_of
+from lacuna.discovery.efforts.find import WORTH, Found, add_laws, alike, alike_first, is_family, places_of, simplest
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
-from lacuna.discovery.fit.evidence import FAR, common_correlation, excess, like_noise, nearly_noise, within_instruments
+from lacuna.discovery.fit.evidence import (
+    FAR,
+    LEAST_TAKEN,
+    common_correlation,
+    excess,
+    like_noise,
+    nearly_noise,
+    within_instruments,
+)
 from lacuna.discovery.law.beyond import margin
 from lacuna.discovery.law.together.pairs import Place, paired, two_places
 from lacuna.discovery.law.together.several import (
@@ -67,14 +75,16 @@ def begun_open(unbegun: Search, library: Library, progress: Progress) -> Found |
 
 
 def equations_first(unbegun: Search, found: Found, progress: Progress) -> bool:
-    """Whether no error of a sensor, all that the catalogue knows, promises half of what an effort at one place of the
-    equations explains: laws are then looked for before such errors, which could but stand for them."""
-    case, amendment = unbegun.case, unbegun.amendment
-    best = max((s.explains for s in found.sites if s.place is not None), default=0.0)
+    """Whether no error of a sensor, all that the catalogue knows, promises as much as a finding has to take away, and
+    none of any course leaves as little as an effort at one place of the equations: laws are then looked for before such
+    errors, which could but stand for them."""
+    efforts, case, amendment = simplest(found.sites), unbegun.case, unbegun.amendment
+    if not efforts or any(alike(s, efforts[0]) for s in found.sites if s.place is None):
+        return False
     every = enumerate_attachments(case, amendment.structure, unbegun.effects, amendment)
     errors = [a for a in every if a.variable not in unbegun.blameless]
     promising, _ = screen_all(case, amendment, errors, unbegun.fit, progress)
-    return all(c.predicted < HALF * best for c in promising)
+    return all(c.predicted < LEAST_TAKEN for c in promising)
 
 
 def explain_open(
