@@ -57,7 +57,9 @@ def amend(
 @answered
 def judge(
     case: Case,
-    model: Annotated[Path, typer.Argument(metavar="MODEL.mo", help="A model file with the believed model's variables")],
+    model: Annotated[
+        Path, typer.Argument(metavar="MODEL.mo[:CLASS]", help="A model file with the believed model's variables")
+    ],
     library: Libraries = None,
     out: Out = None,
 ) -> Answer:

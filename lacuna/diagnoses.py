@@ -224,7 +224,9 @@ class Case:
 
     @names_missing_packages
     def judge(self, model: str | Path, *, out: str | Path | None = None, progress: Progress | None = None) -> Judged:
-        """How well does a model file, as written, simulate the recordings that nothing was fitted to?"""
+        """How well does a model file, as written, simulate the recordings that nothing was fitted to? `model` is a
+        file, or a class in one: `file.mo:Pkg.Class`."""
+        from lacuna.codegen.library.search_path import split_name
         from lacuna.discovery.case.gaps import before_gaps
         from lacuna.discovery.case.problem import CaseError
         from lacuna.discovery.case.recordings_check import UNDRIVEN
@@ -234,8 +236,8 @@ class Case:
         from lacuna.discovery.naming.judge import judge_file
         from lacuna.discovery.steps import prepared
 
-        path = Path(model)
-        path.open().close()  # an unreadable file is said before anything is simulated
+        path, (file, _) = Path(model), split_name(str(model))
+        (file or path).open().close()  # an unreadable file is said before anything is simulated
         usable = prepared(self._case, without=(UNDRIVEN,))
         case, left_out = before_gaps(usable.case)
         if usable.reason or not (case.fit and case.validate):

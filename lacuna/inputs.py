@@ -146,7 +146,8 @@ def assumed(given: Mapping[str, Input], variables: Mapping[str, Variable]) -> li
             )
         elif isinstance(value, Measured) and value.inferred and name in variables:
             fits = _inferred_factor(value, variables[name].unit) is not None
-            if to_si(value.inferred)[0] != 1.0 or not fits:
+            own = value.source.endswith(f": {name}")  # the end of the variable's own name is no unit
+            if to_si(value.inferred)[0] != 1.0 if fits else not own:
                 taken = f"taken to be in {value.inferred}" if fits else f"taken as it is, not in {value.inferred}"
                 said.append(f"warning: input {name}: {value.source} is {taken}; write units in brackets: name [unit]")
     return said

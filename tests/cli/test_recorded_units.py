@@ -123,6 +123,7 @@ def test_what_may_be_either_is_taken_as_it_is(tmp_path: Path, head: str, unit: s
         ("theta_d", "", 120, "theta_d is taken as it is, not in d"),
         ("phi_deg", "rad", np.deg2rad(120), "phi_deg is taken to be in deg"),
         ("phi_rad", "rad", 120, ""),
+        ("u_in", "1", 120, "u_in is taken as it is, not in in"),
     ],
 )
 def test_a_unit_that_a_name_ends_like_is_believed_where_it_fits(
@@ -132,6 +133,12 @@ def test_a_unit_that_a_name_ends_like_is_believed_where_it_fits(
     result = lacuna.load(turn(tmp_path, unit)).simulate(inputs={"u": given})
     assert result["y"][-1] == pytest.approx(last, rel=1e-12)
     assert [said in w for w in result.warnings] == [True] * bool(said)
+
+
+def test_the_end_of_the_variables_own_name_is_no_unit(tmp_path: Path) -> None:
+    (tmp_path / "M.mo").write_text("model M input Real y_in; Real y = y_in; end M;", encoding="utf-8")
+    given = lacuna.recorded(recording(tmp_path, "y_in"), "y_in")
+    assert lacuna.load(tmp_path / "M.mo").simulate(inputs={"y_in": given}).warnings == []
 
 
 def test_a_column_called_as_a_variable_says_no_unit_by_its_end(tmp_path: Path) -> None:

@@ -46,8 +46,15 @@ def record(path: Path, rows: np.ndarray) -> None:
     np.savetxt(path, rows, "%.6g", ",", header="time,q,h", comments="")
 
 
-def judged(folder: Path) -> Judged:
-    return lacuna.open_case(folder).judge(folder / "Tank.mo", out=folder / "out")
+def judged(folder: Path, model: str = "Tank.mo") -> Judged:
+    return lacuna.open_case(folder).judge(folder / model, out=folder / "out")
+
+
+def test_a_class_in_a_file_is_judged(tmp_path: Path, rows: np.ndarray) -> None:
+    record(tmp_path / "unseen.csv", rows)
+    inside = TANK.format(outflow="k*h")
+    (tmp_path / "Plant.mo").write_text(f"package Plant\n{inside}\nend Plant;\n", encoding="utf-8")
+    assert judged(tmp_path, "Plant.mo:Plant.Tank").validate == judged(tmp_path).validate
 
 
 def test_recordings_that_no_fit_takes_are_not_judged_either(tmp_path: Path, rows: np.ndarray) -> None:
