@@ -9,7 +9,7 @@ import numpy as np
 
 from lacuna.discovery.case.noise import Noise, is_coarse
 from lacuna.discovery.case.values import is_start
-from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.fit import Fit, nrmse
 
 BLOCKS = (1, 8, 40, 200)  # samples over which a residual is averaged
 SIGMAS = 5.0  # of a mean square: dozens of tests of a case together then fail by chance in less than 1 of 10 000
@@ -179,6 +179,14 @@ def within_instruments(fit: Fit) -> bool:
 def astray(fit: Fit) -> bool:
     """Whether far more than noise is left in a signal."""
     return max(fit.level.values()) > FAR
+
+
+def out_of_phase(fit: Fit) -> bool:
+    """Whether far more than noise is left in a signal, or more of one than is explained: what a fit in a dip leaves
+    that is a period off."""
+    case = fit.machine.case
+    missed = nrmse(case, case.fit, fit.residuals)
+    return astray(fit) or any(level > LEFT and 2 * missed[c] ** 2 > 1 for c, level in fit.level.items())
 
 
 def outside_belief(fit: Fit, sigmas: float = 3.0) -> dict[str, float]:

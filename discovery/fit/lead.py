@@ -26,7 +26,7 @@ from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.case.thinning import MOST
 from lacuna.discovery.case.values import is_start, state_of
 from lacuna.discovery.catalogue.attachment import OWN
-from lacuna.discovery.fit.evidence import LEFT, astray, nearly_noise, outside_belief
+from lacuna.discovery.fit.evidence import LEFT, nearly_noise, out_of_phase, outside_belief
 from lacuna.discovery.fit.fit import Fit, believed, falling_bandwidths, fit
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import Objective, noise_of
@@ -173,12 +173,12 @@ def _near_belief(free: Free, value: float) -> Free:
 
 
 def fit_believed(case: Case, machine: Machine) -> tuple[Fit, Lead]:
-    """The believed model's best fit, in pieces too where it has lost its way, and how fits of it are led."""
+    """The believed model's best fit, in pieces too where it may be out of phase, and how fits of it are led."""
     noise = noise_of(case)
     free, fixed = believed(case, machine)
     lead = lead_for(case, machine, fixed | {f.name: f.centre for f in free})
     best = lead.fit(machine, case, noise, free, fixed)
-    if lead.direct and (best is None or astray(best)):
+    if lead.direct and (best is None or out_of_phase(best)):
         other = joined(machine, case, noise, free, fixed)
         best = other if other is not None and other.machine is not machine else _better(best, other)
     if best is None:
