@@ -26,7 +26,8 @@ from lacuna.discovery.fit.evidence import (
     within_instruments,
 )
 from lacuna.discovery.law.beyond import margin
-from lacuna.discovery.law.together.pairs import Place, paired, two_places
+from lacuna.discovery.law.together.joining import two_places
+from lacuna.discovery.law.together.pairs import Place, paired
 from lacuna.discovery.law.together.several import (
     among_sensors,
     apart,
@@ -169,7 +170,7 @@ def _beside_error(
 def _two(
     unbegun: Search, found: Found, pair: tuple[Place, Place], library: Library, progress: Progress
 ) -> Search | None:  # fmt: skip
-    two = two_places(unbegun, pair, next(iter(found.laws), None), progress)
+    two = two_places(unbegun, pair, next(iter(found.laws), None), library, progress)
     if two is not None:
         find_long_anew(two, library, progress)
     return two
