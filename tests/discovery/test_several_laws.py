@@ -24,13 +24,16 @@ from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.explain import explain
 from lacuna.discovery.explanation.explanation import Explanation
+from lacuna.discovery.fit.evidence import nearly_noise
 from lacuna.discovery.fit.fit import believed, fit
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import noise_of
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.law.empirical_law import fitted_law
 from lacuna.discovery.law.law import Law
+from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.law.terms.law_terms import Group
+from lacuna.discovery.law.together.joining import Joining
 from lacuna.discovery.law.together.pairs import Place, paired
 from lacuna.discovery.law.together.several import _taken_out, find_long_anew, finding, is_of_form, simplify
 from lacuna.discovery.naming.candidate_fit import without
@@ -189,3 +192,19 @@ def test_a_law_of_several_terms_is_found_anew_beside_the_others(result: Explanat
     found = search.findings[k].ranked.attachment
     assert (found.location, len(found.law.groups)) == ("upper", 1)
     assert search.fit.deviance() == pytest.approx(result.final.deviance(), abs=2.0)
+
+
+@together
+def test_of_two_laws_one_is_found_anew_with_the_other_in_the_model(result: Explanation) -> None:
+    """The cube of the upper tank's level, for which the level itself stood."""
+    base = result.base
+    unbegun = Search(result.case, [], result.lead, result.floor, base.machine.amendment, base, result.before)
+    joining = Joining(unbegun, result.case.library(), lambda text: None)
+    laws = {f.ranked.attachment.location: f.ranked.attachment for f in result.findings}
+    upper, lower = (Proposal(a.law, a.own_values(result.final.point)) for a in (laws["upper"], laws["lower"]))
+    level = next(v for v in upper.law.site.variables if v.name == "upper" and not v.minus)
+    wrong = joining._joint(lower, Proposal(Law(upper.law.site, (Group((level.scaled,)),)), {"c_1": -1e-3}))
+    assert not nearly_noise(wrong.fit)
+    right = joining._anew(wrong)
+    assert nearly_noise(right.fit)
+    assert right.two.law.text() == upper.law.text() and right.one.law.site.location == "lower"

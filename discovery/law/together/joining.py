@@ -97,32 +97,42 @@ class Joining:
                 return self._simplified(best)
             if best is None or (single and self._is_less(single, best)):
                 return None
+        best = self._anew(best, whole=True)
         most = best is None or single is None or excess(best.fit) > HALF * excess(single.fit)
         return None if most else self._simplified(best)
 
-    def _anew(self, best: Both | None) -> Both | None:
+    def _anew(self, best: Both | None, whole: bool = False) -> Both | None:
         """Each law found anew with the other one in the model, while the two leave more than noise, and clearly less
-        each time: an effort of any course, beside which it was screened, takes part of what the right one says."""
+        each time: an effort of any course, beside which it was screened, takes part of what the right one says. Of one
+        group of terms, or of two (the `whole`)."""
+        sides: tuple[bool, ...] = (True, False)  # whether it is the first law that is found anew
         while best is not None and not nearly_noise(best.fit):
             before = best
-            for turned in (True, False):
-                one, two = (best.two, best.one) if turned else (best.one, best.two)
-                if (law := self._law_beside(_at(one, best.fit), two.law.site.location)) is not None:
-                    best = self._better(best, Both(*((law, one) if turned else (one, law)), law.candidate.fit))
+            for first in sides:
+                other = self._exchanged(before, first, whole)
+                if other is not None and self._better(best, other) is other:
+                    best, sides = other, (not first,)
             correlation = common_correlation([best.fit, before.fit])
             if self._paid(best, correlation) > self._paid(before, correlation) - TIE:
                 break
         return best
 
-    def _law_beside(self, kept: Proposal, location: str) -> Proposal | None:
-        """The best law of one group of terms at a place of the model that has another law."""
+    def _exchanged(self, both: Both, first: bool, whole: bool) -> Both | None:
+        """One of the two laws found anew with the other one in the model."""
+        kept, old = (both.two, both.one) if first else (both.one, both.two)
+        law = self._law_beside(_at(kept, both.fit), old.law.site.location, whole)
+        return law and Both(*((law, kept) if first else (kept, law)), law.candidate.fit)
+
+    def _law_beside(self, kept: Proposal, location: str, whole: bool) -> Proposal | None:
+        """The best law at a place of the model that has another law."""
         beside = unmoved(self.case, self.amendment, self.base, kept)
         found = beside and places_of(self.case, *beside, self.library, self.progress)
         site = next((s for s in found.sites if s.place and s.place.named(location)), None) if found else None
         if site is None:
             return None
         laws = LawsAt(self.case, *beside, found.locator, site, self.progress)
-        laws.go_on()
+        while laws.go_on() and whole and not laws.settled:
+            pass
         return laws.end()[0]
 
     def _is_less(self, single: Candidate, both: Both) -> bool:
