@@ -64,9 +64,11 @@ def test_a_regression_equals_least_squares_on_all_columns_at_once() -> None:
 def _strains_are_those_of_the_columns(regression: Regression, pairs: list[tuple[int, int]]) -> None:
     """In either order; where a pair was not looked at, its columns are found."""
     known = [regression.strain(pair) for pair in pairs] + [regression.strain(pair[::-1]) for pair in pairs]
+    ones = [regression.strain((g,)) for g in (0, 2)]
     regression.forget()
     regression._strains.clear()
     assert known == pytest.approx([regression.strain(pair) for pair in pairs] * 2, rel=1e-6)
+    assert ones == pytest.approx([regression.strain((g,)) for g in (0, 2)], rel=1e-6)
 
 
 def _moving(p: Piece) -> Piece:

@@ -58,6 +58,15 @@ class Metric:
         taken = np.column_stack([self.shares[g] for g in chosen]) @ coefficients
         return np.linalg.solve(self.triangle, self.target_share - taken)
 
+    def parameters_of_ones(self, numbers: Sequence[int]) -> np.ndarray:
+        """(parameters, numbers) where they go with each of some groups of one term by itself."""
+        if not numbers:
+            return np.zeros((len(self.target_share), 0))
+        size, onto = (np.array([kept[g].item() for g in numbers]) for kept in (self.triangles, self.onto))
+        found = np.divide(onto, size, out=np.zeros_like(onto), where=size > 0)
+        taken = np.column_stack([self.shares[g] for g in numbers]) * found
+        return np.linalg.solve(self.triangle, self.target_share[:, None] - taken)
+
     def add(self, answers: list[np.ndarray], terms: list[int]) -> np.ndarray:
         """Take groups of so many terms each in; their columns."""
         columns, shares = self.beside_parameters(answers)

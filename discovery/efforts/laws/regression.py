@@ -50,7 +50,7 @@ class Regression:
         self._picks: dict[tuple[str, ...], float] = {}
         self.metrics = [Metric(thin, guided.latent, share) for share in DISCREPANCIES]
         self.rows = len(self.metrics[0].target)
-        self.driven = np.abs(guided.mean)
+        self._reach = np.maximum(NEAR, FURTHER * np.abs(guided.mean))  # of the parameters
         self.alone = np.zeros((len(self.metrics), 0))  # (metrics, groups) deviances of each group alone
         self._strains: dict[tuple[int, ...], float] = {}
         self._beside: list[Beside] = []  # pairs that were looked at
@@ -68,6 +68,7 @@ class Regression:
             if wanted:
                 self._keep(block, found)
         self.alone = np.hstack([self.alone, [metric.deviances_alone(added) for metric in self.metrics]])
+        self._strain_ones([g for g in added if len(self.groups[g].texts) == 1])
         return added
 
     def _blocks(self, numbers: Sequence[int]) -> list[list[int]]:
@@ -187,9 +188,17 @@ class Regression:
         law may as well."""
         if chosen not in self._strains:
             k, found = self._among_pairs(chosen) or self._from_columns(chosen)
-            moved = np.abs(self.metrics[k].parameters(chosen, found))
-            self._strains[chosen] = float(np.max(moved / np.maximum(NEAR, FURTHER * self.driven), initial=0.0))
+            moved = self.metrics[k].parameters(chosen, found)
+            self._strains[chosen] = float(np.max(np.abs(moved) / self._reach, initial=0.0))
         return self._strains[chosen]
+
+    def _strain_ones(self, numbers: Sequence[int]) -> None:
+        """The same of groups of one term, all at once: of thousands one in each kind is asked for."""
+        least = np.argmin(self.alone[:, list(numbers)], axis=0)
+        for k, metric in enumerate(self.metrics):
+            own = [g for g, best in zip(numbers, least, strict=True) if best == k]
+            strains = np.max(np.abs(metric.parameters_of_ones(own)) / self._reach[:, None], axis=0, initial=0.0)
+            self._strains |= {(g,): float(strain) for g, strain in zip(own, strains, strict=True)}
 
     def _from_columns(self, chosen: tuple[int, ...]) -> tuple[int, np.ndarray]:
         """(metric in which the groups leave least, their coefficients there)."""
