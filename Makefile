@@ -8,7 +8,8 @@ BUILD ?= build
 OUT ?= out
 PYTHON := .venv/bin/python
 LACUNA := .venv/bin/lacuna
-PYTEST := LACUNA_CACHE=$(abspath $(BUILD))/cache $(PYTHON) -m pytest -q -n 2 --dist loadgroup
+# Two workers share the cores: linear algebra that had threads of its own beside them would but wait for them.
+PYTEST := LACUNA_CACHE=$(abspath $(BUILD))/cache OPENBLAS_NUM_THREADS=1 $(PYTHON) -m pytest -q -n 2 --dist loadgroup
 # Silent but for ctest's closing lines; where a test fails, everything it printed. $(2): options besides.
 run_ctest = ctest --test-dir $(1) $(2) --output-on-failure -j 2 > $(1)/ctest.log && tail -n 3 $(1)/ctest.log \
   || { cat $(1)/ctest.log; exit 1; }
