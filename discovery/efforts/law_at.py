@@ -19,7 +19,7 @@ from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.fit.evidence import astray, common_correlation, settled
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.lead import joined
-from lacuna.discovery.fit.solver.side_by_side import apart
+from lacuna.discovery.fit.solver.side_by_side import in_threads
 from lacuna.discovery.law.empirical_law import race, simplified, unfitted
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.naming.comparison import TIE, note_laws, rival_score
@@ -62,7 +62,7 @@ class LawsAt:
         case, amendment, base = self.case, self.amendment, self.base
         for proposal in tried:
             self.progress(f"fitting a law at {self.site.location}: {proposal.law.text()}")
-        begun = apart(lambda p: begun_at(case, amendment, base, p, guided.point), tried)
+        begun = in_threads(lambda p: begun_at(case, amendment, base, p, guided.point), tried)
         for proposal, candidate in zip(tried, begun, strict=True):
             proposal.candidate = candidate
         self._begun += begun
@@ -110,7 +110,7 @@ def _near(fitted: list[Proposal], best: Proposal, base: Fit) -> list[Proposal]:
 def _varied(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> list[Proposal]:
     """A fitted law's variants, fitted from there side by side."""
     found, point = varied(best), best.candidate.fit.point
-    begun = apart(lambda p: unfitted(case, amendment, base, p.law, p.start, point), found)
+    begun = in_threads(lambda p: unfitted(case, amendment, base, p.law, p.start, point), found)
     found = [replace(p, candidate=c) for p, c in zip(found, begun, strict=True) if c is not None]
     race(case, base, [other.candidate for other in found], best.candidate)
     return [other for other in found if other.candidate.fit is not None]

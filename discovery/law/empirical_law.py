@@ -24,7 +24,7 @@ from lacuna.discovery.fit.evidence import common_correlation, is_noise
 from lacuna.discovery.fit.fit import Fit, fit, linearised
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.solver.free import Free
-from lacuna.discovery.fit.solver.side_by_side import apart
+from lacuna.discovery.fit.solver.side_by_side import in_threads
 from lacuna.discovery.fit.zeros import beside_zeros
 from lacuna.discovery.law.law import Law, attach, component_of
 from lacuna.discovery.law.law_screen import Effort, Proposal, screened, sites
@@ -55,7 +55,7 @@ def find(
         tried = proposals[:FITTED]
         for proposal in tried:
             progress(f"fitting a law at {proposal.law.site.location}")
-        candidates = apart(lambda p: fitted_law(case, amendment, base, p.law, p.start), tried)
+        candidates = in_threads(lambda p: fitted_law(case, amendment, base, p.law, p.start), tried)
         fitted = [replace(p, candidate=c) for p, c in zip(tried, candidates, strict=True) if c is not None]
         if not fitted:
             break
@@ -159,7 +159,7 @@ def held_of(law: Law, attachment: Attachment, start: dict[str, float]) -> dict[s
 def simplified(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> Proposal:
     """The law without coefficients that may be zero, and with whole exponents and orders where the data allows them."""
     simpler, point = _simpler(best), best.candidate.fit.point
-    fitted = apart(lambda p: fitted_law(case, amendment, base, p.law, p.start, point), simpler)
+    fitted = in_threads(lambda p: fitted_law(case, amendment, base, p.law, p.start, point), simpler)
     shorter = [replace(p, candidate=c) for p, c in zip(simpler, fitted, strict=True) if c is not None]
     correlation = best.candidate.fit.correlation()
     chosen = min([best, *shorter], key=lambda p: rival_score(p.candidate, base, correlation))

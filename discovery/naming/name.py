@@ -16,7 +16,7 @@ from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.trace import left, note_screened
 from lacuna.discovery.fit.evidence import is_noise, nearly_noise
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.fit.solver.side_by_side import apart
+from lacuna.discovery.fit.solver.side_by_side import in_threads
 from lacuna.discovery.fit.solver.time_limit import TimeUp, check
 from lacuna.discovery.naming.candidate_fit import fit_candidate, own_machine, shared
 from lacuna.discovery.naming.comparison import (
@@ -133,7 +133,7 @@ def screen_all(
         progress(f"screened {attachment.label}: " + (f"{found[0].predicted:.1%}" if found else "no use"))
         return [replace(c, machine=None) for c in found] if attachment.label in together else found, ""
 
-    looked_at = list(zip(attachments, apart(one, attachments), strict=True))
+    looked_at = list(zip(attachments, in_threads(one, attachments), strict=True))
     failures = [(attachment.label, why) for attachment, (_, why) in looked_at if why]
     for attachment, (found, why) in looked_at:
         if why or not found:

@@ -11,7 +11,7 @@ from dataclasses import replace
 from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.fit.evidence import nearly_noise
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.fit.solver.side_by_side import apart
+from lacuna.discovery.fit.solver.side_by_side import in_threads
 from lacuna.discovery.naming.screen import Candidate
 
 ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving
@@ -31,7 +31,7 @@ GAINING = 0.1  # share of what parts it from the best, that one further away mus
 
 def run_round(pool: list[Candidate], fitted: Callable[[Candidate], Fit | None]) -> list[Candidate]:
     """Each hypothesis fitted further, the better one of its fits kept; those that have one."""
-    for candidate, found in zip(pool, apart(fitted, pool), strict=True):
+    for candidate, found in zip(pool, in_threads(fitted, pool), strict=True):
         better = candidate.fit is None or (found is not None and found.deviance() < candidate.fit.deviance())
         candidate.fit = found if better else candidate.fit
     return [c for c in pool if c.fit is not None]

@@ -12,7 +12,7 @@ from functools import partial
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit, linearised
-from lacuna.discovery.fit.solver.side_by_side import apart
+from lacuna.discovery.fit.solver.side_by_side import in_threads
 from lacuna.discovery.naming.candidate_fit import fit_candidate
 from lacuna.discovery.naming.comparison import TIE, Progress, best_correlation, score
 from lacuna.discovery.naming.race import HALF, NEAR, ROUNDS
@@ -109,10 +109,10 @@ def _contend(case: Case, base: Fit, candidates: list[Candidate], progress: Progr
         if found is not None:
             candidate.fit, candidate.free, candidate.fixed = found, again.free, again.fixed
 
-    prepared = apart(partial(_prepared, screen), close)
+    prepared = in_threads(partial(_prepared, screen), close)
     least = AS_GOOD * (1.0 - prepared[0].predicted)
     pairs = zip(close, prepared, strict=True)
-    apart(fit_again, [p for p in pairs if p[0].fit.deviance() > sure and 1.0 - p[1].predicted <= least])
+    in_threads(fit_again, [p for p in pairs if p[0].fit.deviance() > sure and 1.0 - p[1].predicted <= least])
 
 
 def _prepared(screen: Screen, candidate: Candidate) -> Candidate:

@@ -19,7 +19,7 @@ def side_by_side(function: Callable[[Task], Result], tasks: Iterable[Task]) -> l
     return list(_pool.map(function, tasks))
 
 
-def apart(function: Callable[[Task], Result], tasks: Iterable[Task]) -> list[Result]:
+def in_threads(function: Callable[[Task], Result], tasks: Iterable[Task]) -> list[Result]:
     """The same in threads of its own, for tasks that are made of others: whole fits, models to be compiled."""
     with ThreadPoolExecutor(WORKERS) as pool:
         return list(pool.map(function, tasks))

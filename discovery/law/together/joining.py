@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.law_at import LawsAt
 from lacuna.discovery.fit.evidence import common_correlation, excess, nearly_noise, pays
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.fit.solver.side_by_side import apart
+from lacuna.discovery.fit.solver.side_by_side import in_threads
 from lacuna.discovery.law.empirical_law import fitted_law, simplified, unmoved
 from lacuna.discovery.law.law import attach, component_of
 from lacuna.discovery.law.law_screen import Proposal
@@ -157,10 +158,10 @@ class Joining:
         if not ones or not twos:
             return best
         first = best.one if best else ones[0]
-        for both in apart(lambda two: self._joint(first, two), twos):
+        for both in in_threads(lambda two: self._joint(first, two), twos):
             best = self._better(best, both)
         second = best.two if best else twos[0]
-        for both in apart(lambda one: self._joint(one, second), ones if first is not ones[0] else ones[1:]):
+        for both in in_threads(lambda one: self._joint(one, second), ones if first is not ones[0] else ones[1:]):
             best = self._better(best, both)
         return best
 
@@ -211,7 +212,8 @@ class Joining:
         if after is None:
             return None
         own, other = joint.two.candidate, replace(both.two.candidate, fit=joint.fit)
-        alone, rest = apart(lambda p: fitted_law(self.case, self.amendment, base, p.law, p.start, p.point), (one, two))
+        fitted = partial(fitted_law, self.case, self.amendment, base)
+        alone, rest = in_threads(lambda p: fitted(p.law, p.start, p.point), (one, two))
         if not all(_is_needed(c, beside) for c, beside in ((other, alone), (own, rest))):
             return None
         between = (alone and try_judge(alone.machine, alone.fit.point)) or unbegun.judgement
