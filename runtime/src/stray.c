@@ -60,7 +60,7 @@ bool rt_branch_strays(rt_session *s, double end, const double *x, const double *
   if (!s->d->n_branches || crosses(s, end)) return false;
   rt_status reached = status ? rt_branch_reach(s, end) : RT_OK;
   bool lost = status ? reached != RT_OK : !rt_branch_is_reached(s, end);
-  if (s->branches.ended) {
+  if (status && s->branches.ended) {
     *status = reached;
     return false;
   }
