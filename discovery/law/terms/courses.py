@@ -51,7 +51,7 @@ class Courses:
             return kind(*map(self._value, node[1:]))
         if (found := self._found.get(node)) is None:
             values = map(self._value, node[1:])
-            found = kind(*values) if callable(kind) else _OF_TIME[kind](self.time, *values)
+            found = kind(*values) if callable(kind) else OF_TIME[kind](self.time, *values)
             self._found[node] = found
         return found
 
@@ -141,7 +141,7 @@ def bent(time: np.ndarray, values: np.ndarray, t: float) -> np.ndarray:
     return np.array(result)
 
 
-_OF_TIME: dict[str, Callable[..., np.ndarray]] = {
+OF_TIME: dict[str, Callable[..., np.ndarray]] = {
     "lag": lagged,
     "warmth": lambda time, values, tau: warmed(time, _everywhere(values, time), tau),
     "integral": total,

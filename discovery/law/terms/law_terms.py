@@ -22,7 +22,7 @@ import re
 import numpy as np
 
 from lacuna.discovery.efforts.places.families import meant
-from lacuna.discovery.law.terms.courses import Courses
+from lacuna.discovery.law.terms.courses import OF_TIME, Courses
 
 STICKS = "dry{x}"  # its sign while it moves; at rest whatever holds it there, up to one in size
 DRY = "tanh(50*{x})"  # the sign of a variable, smooth over two per cent of its range: no second sticking element
@@ -32,7 +32,7 @@ EXPONENTS = (0.5, 1.5, 2.0, 3.0, 4.0)  # where powers start: flow through an ori
 BEYOND = (1.5, 2.0)  # powers of what is beyond a threshold: weirs, contacts
 WHOLE = (1 / 3, 2 / 3, 1.0, 7 / 4, *EXPONENTS, 5.0)  # exponents that are told as such
 AGES = re.compile(r"(?:^|(?<=\*))(?:warmth|total|spent)\((.*), [^,()]+\)$")  # of what was done since the start
-MEMORY = re.compile(r"\b(?:lag|warmth|total|spent|swing|delay|onset|hysteresis)\(.*")
+MEMORY = re.compile(rf"\b(?:{'|'.join(OF_TIME)})\(.*")
 HIGHEST = 200.0  # rad/s: fastest vibration that is looked for
 OCTAVE = 1.6  # times pi over the longest recording: spacing of the frequencies that are looked at
 
