@@ -88,24 +88,21 @@ def acting(pieces: Sequence[Piece], latent: Latent, mean: np.ndarray) -> list[li
 def _smoothed(pieces: Sequence[Piece], latent: Latent, mean: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
     """On each recording the means (c, n) of efforts and errors of instruments, and their standard deviations."""
     forces, _forces = latent.of_library()
-    result = []
-    for piece, left in zip(pieces, _left(pieces, mean), strict=True):
-        seen, readings = np.ascontiguousarray(piece.seen), np.ascontiguousarray(left)
-        means, deviations = np.empty((2, forces.forces, len(left)))
+
+    def of_one(piece: Piece) -> tuple[np.ndarray, np.ndarray]:
+        readings = np.ascontiguousarray(piece.data[:, :, 0] + piece.data[:, :, 1:] @ mean)
+        seen = np.ascontiguousarray(piece.seen)
+        means, deviations = np.empty((2, forces.forces, len(readings)))
         model = piece.along.model(piece.noise, piece.start)
-        _checked(
-            library().lacuna_latent_smooth(
-                model, forces, pointer(readings), seen.ctypes.data, pointer(means), pointer(deviations)
-            )
+        failed = library().lacuna_latent_smooth(
+            model, forces, pointer(readings), seen.ctypes.data, pointer(means), pointer(deviations)
         )
-        result.append((means, deviations))
-    return result
+        _checked(failed)
+        return means, deviations
+
+    return side_by_side(of_one, pieces)
 
 
 def _checked(failed: int) -> None:
     if failed:
         raise np.linalg.LinAlgError("what an effort may do is beyond numbers")
-
-
-def _left(pieces: Sequence[Piece], mean: np.ndarray) -> list[np.ndarray]:
-    return [p.data[:, :, 0] + p.data[:, :, 1:] @ mean for p in pieces]
