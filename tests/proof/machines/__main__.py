@@ -1,6 +1,7 @@
 """The proof on machines of others: `python -m tests.proof.machines [--seed 101] [--small | --report] [--jobs 1]`.
 
-Resumes; the page of a run is beside its cases, in OUT/seed.../VERSION.md.
+Resumes; every run is kept in runs.csv, and docs/proof-machines.md is written from all of them. The table of each of its
+cases is beside these, in OUT/seed.../VERSION.md.
 """
 
 from __future__ import annotations
@@ -11,11 +12,13 @@ import sys
 import time
 
 from tests.proof.machines.generate import generate
+from tests.proof.machines.page import counted, keep, page
 from tests.proof.machines.plan import plan, small
 from tests.proof.machines.score import by_style, listing, score_folder, table
 from tests.proof.runner import ROOT, content_hash, diagnose, finished, run_all, tool_hash
 
 EXPLAIN = (sys.executable, "-m", "lacuna.cli.main", "explain", "--limit", "400")
+SCORED = ("__main__.py", "page.py", "score.py", "test_machines.py")  # what no case is drawn by
 LIMIT = 600.0  # seconds of wall clock for a case, on a machine that others use too
 
 
@@ -36,7 +39,7 @@ def main() -> int:
     cases = plan(arguments.seed)
     cases = small(cases) if arguments.small else cases
     here = Path(__file__).parent
-    drawn_by = [f for f in here.rglob("*.py") if f.name not in ("__main__.py", "score.py", "test_machines.py")]
+    drawn_by = [f for f in here.rglob("*.py") if f.name not in SCORED]
     out = arguments.out / f"seed{arguments.seed}-{content_hash(sorted(drawn_by))[:6]}"
     version, end = tool_hash(), time.monotonic() + 60 * arguments.minutes
 
@@ -65,6 +68,11 @@ def main() -> int:
     text += f"By how the model is written: {by_style(scores)}.\n\n{listing(scores)}"
     (out / f"{version}.md").write_text(text)
     print(text)
+    if scores:
+        every = keep(counted(arguments.seed, version, arguments.small, len(cases), scores))
+        target = ROOT / "docs" / "proof-machines.md"
+        target.write_text(page(every, arguments.seed, version, scores))
+        print(f"written: {target}")
     return 0
 
 

@@ -12,8 +12,9 @@ from lacuna.codegen.compile import compile_model
 from lacuna.recorded_units import ZERO_CELSIUS, to_si
 from lacuna.runtime import Model, RecordedInput, simulate
 from tests.proof.machines import machine as truth
-from tests.proof.machines import plan, strangers
+from tests.proof.machines import page, plan, strangers
 from tests.proof.machines import truth as truths
+from tests.proof.machines.score import Score
 
 MACHINES = (*plan.MACHINES, *strangers.MACHINES)
 SAMPLES = 60
@@ -68,3 +69,39 @@ def test_of_two_effects_none_is_what_a_believed_parameter_stands_in_for(monkeypa
     monkeypatch.setattr(truths, "simulate", run)
     assert truths.each_shows(case((3, 0.3), (5, 0.3)), slice(0, 1))
     assert not truths.each_shows(case((1, 0.3), (3, 0.3)), slice(0, 1))
+
+
+def _score(case: str, kind: str, right: bool, located: bool = False, false: bool = False) -> Score:
+    effects = ("leak",) if kind in ("effect", "two") else ()
+    verdict = "missing_physics" if false or located else "consistent"
+    return Score(
+        case=case, kind=kind, machine="Tank", style="flat", effects=effects, verdict=verdict, said=(), right=right,
+        located=located, all_located=located, false=false, share=0.5 if effects else None, misfit=2.0, seconds=3.0,
+    )  # fmt: skip
+
+
+def test_a_run_is_counted_kept_once_and_told_beside_all_others(tmp_path: Path) -> None:
+    scores = [
+        _score("m001", "effect", right=True, located=True),
+        _score("m002", "effect", right=False),
+        _score("m003", "consistent", right=True),
+        _score("m004", "parameters", right=False, false=True),
+        _score("m005", "weak", right=False),
+    ]
+    made = page.counted(207, "abc", False, 44, scores)
+    counts = (made.run, made.right, made.judged, made.located, made.present, made.false, made.nulls)
+    assert counts == (5, 2, 4, 1, 2, 1, 2)
+    file = tmp_path / "runs.csv"
+    file.write_text(page.RUNS.read_text())
+    before = page.runs(file)
+    assert page.keep(made, file) == page.keep(made, file) == [*before, made]
+    text = page.page(page.runs(file), 207, "abc", scores)
+    assert f"| all | {len(before) + 1} | {sum(r.run for r in before) + 5} |" in text
+    assert "| m002 | Tank | leak |" in text
+    assert "| m003 |" not in text
+
+
+def test_the_runs_that_are_kept_are_whole_rows() -> None:
+    for run in page.runs():
+        assert run.right <= run.judged == run.present + run.nulls <= run.run <= run.planned
+        assert run.located <= run.present and run.false <= run.nulls
