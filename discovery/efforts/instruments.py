@@ -1,4 +1,5 @@
-"""Whether what a fit leaves may be the instruments' own: noise with a memory and drifts, of a level that nobody gave.
+"""Whether what a fit leaves may be the instruments' own: noise with a memory and drifts, of a level that nobody gave, and
+channels that are read early or late.
 
 Two answers are weighed by their evidence, over all recordings together: sensors have errors of their own, chains with
 sizes and time constants that the data chooses; or, beside these, an effort is missing at one place of the equations. An
@@ -15,13 +16,14 @@ import numpy as np
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.efforts.clocks import with_clocks
 from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import evidence
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.latent.thinned import thinned_all
 from lacuna.discovery.efforts.located import SIZES, TIMES, Locator
 from lacuna.discovery.efforts.places.opened import opened
-from lacuna.discovery.fit.evidence import INSTRUMENTS, may_be_coloured
+from lacuna.discovery.fit.evidence import INSTRUMENTS, may_be_coloured, within_instruments
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.naming.comparison import MIN_GAIN
 from lacuna.runtime import SimulationError
@@ -51,7 +53,8 @@ def gained(case: Case, before: tuple[Amendment, Fit], after: tuple[Amendment, Fi
     locators = [locator_of(case, *model) for model in (before, after)]
     if None in locators:
         return -np.inf
-    without, with_it = (_fitted(thinned_all(x.pieces, SAMPLES), _NOTHING, _worst(x))[1] for x in locators)
+    clocks = within_instruments(before[1])
+    without, with_it = (_fitted(_pieces(x, clocks), _NOTHING, _worst(x))[1] for x in locators)
     return with_it - without
 
 
@@ -74,7 +77,7 @@ def locator_of(case: Case, amendment: Amendment, fit: Fit) -> Locator | None:
 def weighed(locator: Locator) -> float:
     """What an effort at any place explains beside the instruments' own errors, in nats over these alone. It is sought
     beside those, which may have had to stand for it, and beside none."""
-    pieces, worst = thinned_all(locator.pieces, SAMPLES), _worst(locator)
+    pieces, worst = _pieces(locator, within_instruments(locator.base)), _worst(locator)
     alone, log = _fitted(pieces, _NOTHING, worst)
     begun = (_with_effort(locator, pieces, colour) for colour in (alone.colour, _NOTHING.colour))
     return max(_fitted(pieces, effort, worst)[1] for effort in begun) - log
@@ -82,8 +85,14 @@ def weighed(locator: Locator) -> float:
 
 def colour_of(locator: Locator) -> Colour:
     """Errors of instruments with a memory, as they are beside an effort at the best place."""
-    pieces = thinned_all(locator.pieces, SAMPLES)
+    pieces = _pieces(locator, False)
     return _fitted(pieces, _with_effort(locator, pieces, _NOTHING.colour), _worst(locator))[0].colour
+
+
+def _pieces(locator: Locator, clocks: bool) -> list[Piece]:
+    """What is weighed; with errors of the channels' `clocks`, where no more is left than instruments are off by: of a
+    larger misfit a delay that is missing could say the same."""
+    return thinned_all(with_clocks(locator) if clocks else locator.pieces, SAMPLES)
 
 
 def _worst(locator: Locator) -> np.ndarray:

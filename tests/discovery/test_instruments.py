@@ -12,7 +12,9 @@ from scipy.signal import lfilter
 
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
-from lacuna.discovery.efforts.instruments import _worst, colour_of, only_instruments
+from lacuna.discovery.efforts.clocks import with_clocks
+from lacuna.discovery.efforts.instruments import _NOWHERE, _worst, colour_of, only_instruments
+from lacuna.discovery.efforts.latent.evidence import evidence
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.explain import explain
@@ -28,6 +30,7 @@ LEAKING = CASCADE.format(upper="k*upper", lower="(k*lower + c*lower^2)").replace
     "  input", '  parameter Real c(unit="m/s") = 6e-4;\n  input'
 )
 SAMPLES, STEP = 400, 2.0  # s
+LEVELS = ("lower", "upper")
 
 
 def noise(random: np.random.Generator) -> np.ndarray:
@@ -87,6 +90,38 @@ def test_beside_a_given_level_errors_with_a_memory_are_less_than_it(tmp_path: Pa
     base = fitted(load(folder), lambda text: None)
     locator = Locator(base.case, opened(base.case, base.amendment, base.case.library(), []), base.base)
     np.testing.assert_allclose(_worst(locator), 0.8 * 0.001, rtol=0.01)
+
+
+def test_a_channel_that_is_read_early_is_told_by_how_much(tmp_path: Path) -> None:
+    """White noise of 1 mm, and one level read 0.3 s before the other, which is about half of that noise."""
+    folder, early = tmp_path / "case", 0.3
+    folder.mkdir()
+    machine, random, time = truth(folder, "Cascade", BELIEVED), np.random.default_rng(4), STEP * np.arange(SAMPLES)
+    for name in ("r1.csv", "r2.csv", "r3.csv"):
+        q = 1e-4 * (1 + np.cumsum(random.normal(size=SAMPLES // 50))).clip(0.2, 3).repeat(50)
+        record(folder / name, machine, time, {"q": q}, {v: v for v in LEVELS}, dict.fromkeys(LEVELS, 0.0))
+        table = np.genfromtxt(folder / name, delimiter=",", names=True)
+        columns = {n: table[n] for n in table.dtype.names}
+        columns["lower"] = np.interp(time + early, time, columns["lower"])
+        for v in LEVELS:
+            columns[v] = columns[v] + 1e-3 * random.normal(size=SAMPLES)
+        rows = np.column_stack([*columns.values()])
+        np.savetxt(folder / name, rows, delimiter=",", header=",".join(columns), comments="")
+    (folder / "Cascade.mo").write_text(BELIEVED, encoding="utf-8")
+    (folder / "case.toml").write_text(CASE, encoding="utf-8")
+    base = fitted(load(folder), lambda text: None)
+    case, free = base.case, [f.name for f in base.base.estimate.free]
+    locator = Locator(case, opened(case, base.amendment, case.library(), free), base.base)
+    told, plain = (evidence(pieces, _NOWHERE) for pieces in (with_clocks(locator), locator.pieces))
+    assert told.log[0] > plain.log[0] + 10
+    simulated = [r.columns["lower"] - base.base.residuals[r.name]["lower"] for r in case.fit]
+    slope = np.concatenate([np.gradient(s, STEP) for s in simulated])
+    unit = 0.8 * 1e-3 / np.sqrt(np.mean(slope**2))  # s, of the belief
+    error = np.sqrt(np.diag(np.linalg.inv(told.information[0])))
+    names = [s.column for s in case.outputs]
+    lower, upper = (len(told.mean[0]) - len(names) + names.index(v) for v in ("lower", "upper"))
+    assert abs(-told.mean[0, lower] * unit - early) < 4 * error[lower] * unit < early
+    assert abs(told.mean[0, upper]) < 4 * error[upper]
 
 
 @pytest.mark.parametrize("level", [0.002, 0.001])
