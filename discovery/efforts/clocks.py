@@ -16,8 +16,8 @@ from lacuna.discovery.fit.evidence import INSTRUMENTS
 
 
 def with_clocks(locator: Locator) -> list[Piece]:
-    """The pieces of a locator with a further parameter for each output, the same one in all recordings: what its samples
-    are late by, believed to move it by as much as instruments are off by (RMS, beside their noise)."""
+    """The pieces of a locator with a further parameter for each output, the same one in all recordings: what its
+    samples are late by, believed to move it by as much as instruments are off by (RMS, beside their noise)."""
     slopes = [_slopes(locator, k) for k in range(len(locator.pieces))]
     power = np.nanmean(np.concatenate(slopes) ** 2, axis=0)
     late = np.sqrt(INSTRUMENTS**2 - 1.0) * locator.noise / np.sqrt(np.where(power > 0, power, np.inf))  # s
@@ -28,7 +28,7 @@ def with_clocks(locator: Locator) -> list[Piece]:
 
 
 def _slopes(locator: Locator, number: int) -> np.ndarray:
-    """(n, outputs) what each output rises by in a second on a recording, as it is simulated; nan where it is missing."""
+    """(n, outputs) what each output rises by in a second on a recording, as it is simulated; nan where none is."""
     piece, recording = locator.pieces[number], locator.case.fit[number]
     result = np.full(piece.data.shape[:2], np.nan)
     for k, signal in enumerate(locator.case.outputs):

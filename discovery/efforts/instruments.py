@@ -1,5 +1,5 @@
-"""Whether what a fit leaves may be the instruments' own: noise with a memory and drifts, of a level that nobody gave, and
-channels that are read early or late.
+"""Whether what a fit leaves may be the instruments' own: noise with a memory and drifts, of a level that nobody gave,
+and channels that are read early or late.
 
 Two answers are weighed by their evidence, over all recordings together: sensors have errors of their own, chains with
 sizes and time constants that the data chooses; or, beside these, an effort is missing at one place of the equations. An

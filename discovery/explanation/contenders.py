@@ -1,14 +1,17 @@
-"""Between which explanations a further experiment has to decide."""
+"""Between which explanations a further experiment has to decide, and whether they are one physics after all."""
 
 from __future__ import annotations
 
+from lacuna.discovery.efforts.places.opened import ALIKE
+from lacuna.discovery.efforts.places.place import adjoins
 from lacuna.discovery.experiment.separation import Rival, released
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.explanation.wording import at
 from lacuna.discovery.fit.evidence import common_correlation
 from lacuna.discovery.law.law import law_at
 from lacuna.discovery.naming.comparison import Ranked, price
-from lacuna.discovery.naming.name import Finding
+from lacuna.discovery.naming.name import AS_LIKELY, Finding
+from lacuna.runtime import SimulationError
 
 BELIEVED = "the believed model"
 MOST = 3  # rivals of the first explanation
@@ -40,6 +43,35 @@ def _of_another_kind(finding: Finding) -> list[Ranked]:
         r for r in finding.naming.rivals(finding.ranked)
         if not r.attachment.contains(own) and not own.contains(r.attachment)
     ]  # fmt: skip
+
+
+def is_anywhere(result: Explanation, finding: Finding) -> bool:
+    """Whether the data cannot tell where it is, and that makes a difference: what is at one end of a rigid gear is, by
+    its ratio, at the other; a force in a damper is the physics that it is on what the damper holds."""
+    own = finding.ranked
+    others = [r for r in finding.elsewhere if not (_adjoins(own, r) or _turn_as_one(result, own, r))]
+    return finding.tied and sum(r.confidence for r in others) > AS_LIKELY * finding.ranked.confidence
+
+
+def _turn_as_one(result: Explanation, one: Ranked, other: Ranked) -> bool:
+    """Whether two hypotheses are one effect at shafts whose speeds have a fixed ratio."""
+    machine, recording = result.final.machine, result.case.fit[0]
+    shafts = [r.attachment.shaft for r in (one, other)]
+    names = [f"{s.location}.w" for s in shafts if s is not None and f"{s.location}.w" in machine.model.variables]
+    if len(names) < 2 or one.identity[0] != other.identity[0]:
+        return False
+    try:
+        found = machine.trajectory(result.final.point, recording, names)
+    except SimulationError:
+        return False
+    a, b = (found[n] for n in names)
+    return float(a @ a) * float(b @ b) - float(a @ b) ** 2 < ALIKE * float(a @ a) * float(b @ b)
+
+
+def _adjoins(one: Ranked, other: Ranked) -> bool:
+    """Whether two laws are at one component, or at what it is joined to."""
+    sites = [r.attachment.site for r in (one, other)]
+    return None not in sites and adjoins(*sites)
 
 
 def _told(first: Ranked, others: list[Ranked], most: int = MOST) -> list[Rival]:

@@ -10,7 +10,7 @@ import numpy as np
 from lacuna.discovery.efforts.find import INDIFFERENT
 from lacuna.discovery.efforts.instruments import NATS, gained, log_evidence, only_instruments
 from lacuna.discovery.efforts.located import Site
-from lacuna.discovery.efforts.places.opened import ALIKE
+from lacuna.discovery.explanation.contenders import is_anywhere
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.explanation.input_error import moved_as_one, offset_instead
 from lacuna.discovery.explanation.wording import at
@@ -34,9 +34,7 @@ from lacuna.discovery.law.law import law_at
 from lacuna.discovery.naming.comparison import TIE, Ranked, price, score
 from lacuna.discovery.naming.foretold import foretold
 from lacuna.discovery.naming.judge import Judgement
-from lacuna.discovery.naming.name import AS_LIKELY, Finding
 from lacuna.discovery.naming.screen import Candidate
-from lacuna.runtime import SimulationError
 
 
 def decide(result: Explanation) -> None:
@@ -134,7 +132,7 @@ def _doubt(result: Explanation) -> tuple[str, str] | None:
             "noise away: what is missing is something else"
         )
         return reason, experiment_for(first.ranked, others)
-    if all(_is_anywhere(result, f) for f in result.findings):
+    if all(is_anywhere(result, f) for f in result.findings):
         rivals = first.elsewhere
         names = ", ".join(dict.fromkeys(r.attachment.label for r in rivals[:3]))
         return f"{label} and {names} explain the data equally well", experiment_for(first.ranked, rivals)
@@ -153,28 +151,6 @@ def _doubt(result: Explanation) -> tuple[str, str] | None:
         reason = f"{_told(first.ranked)} may as well be one of {other.column}, {proportion}"
         return reason, f"record a motion in which {own.column} and {other.column} go apart"
     return None
-
-
-def _is_anywhere(result: Explanation, finding: Finding) -> bool:
-    """Whether the data cannot tell where it is, and that makes a difference: what is at one end of a rigid gear is, by
-    its ratio, at the other."""
-    others = [r for r in finding.elsewhere if not _turn_as_one(result, finding.ranked, r)]
-    return finding.tied and sum(r.confidence for r in others) > AS_LIKELY * finding.ranked.confidence
-
-
-def _turn_as_one(result: Explanation, one: Ranked, other: Ranked) -> bool:
-    """Whether two hypotheses are one effect at shafts whose speeds have a fixed ratio."""
-    machine, recording = result.final.machine, result.case.fit[0]
-    shafts = [r.attachment.shaft for r in (one, other)]
-    names = [f"{s.location}.w" for s in shafts if s is not None and f"{s.location}.w" in machine.model.variables]
-    if len(names) < 2 or one.identity[0] != other.identity[0]:
-        return False
-    try:
-        found = machine.trajectory(result.final.point, recording, names)
-    except SimulationError:
-        return False
-    a, b = (found[n] for n in names)
-    return float(a @ a) * float(b @ b) - float(a @ b) ** 2 < ALIKE * float(a @ a) * float(b @ b)
 
 
 def _told(ranked: Ranked | Candidate) -> str:

@@ -16,6 +16,7 @@ from lacuna.discovery.case.noise import estimate, quantum
 from lacuna.discovery.catalogue import catalogue
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
+from lacuna.discovery.efforts.places.sites import Site
 from lacuna.discovery.explain import explain, judge_written, write_amended
 from lacuna.discovery.explanation import diagnosis, report
 from lacuna.discovery.explanation.conclusion import conclude
@@ -130,8 +131,11 @@ def test_the_amended_file_gives_the_reported_numbers(explained: Explanation, tmp
 
 @pytest.mark.parametrize(
     ("behind", "place", "verdict"),
-    [(0.5, "drive", "undetermined"), (6.0, "drive", "missing_physics"), (0.5, "shaft", "missing_physics")],
-)
+    [
+        (0.5, "drive", "undetermined"), (6.0, "drive", "missing_physics"), (0.5, "shaft", "missing_physics"),
+        (0.5, "gear", "missing_physics"),
+    ],
+)  # fmt: skip
 def test_a_rival_elsewhere_that_is_as_likely_leaves_it_undetermined(
     explained: Explanation, behind: float, place: str, verdict: str
 ) -> None:
@@ -139,7 +143,12 @@ def test_a_rival_elsewhere_that_is_as_likely_leaves_it_undetermined(
     own = finding.ranked
     other = next(r for r in finding.naming.ranked if r.identity[0] != own.identity[0])
     there = replace(other.candidate, attachment=replace(other.attachment, location=place))
-    ranked = [replace(own), replace(other, candidate=there, fit=own.fit, score=own.score + behind)]
+    here = own.candidate
+    if place == "gear":  # which the shaft is joined to
+        on, past = Site("node", "shaft", ("shaft.b", "gear.a")), Site("parameter", "gear.d", instance="gear")
+        here = replace(here, attachment=replace(here.attachment, site=on))
+        there = replace(there, attachment=replace(there.attachment, site=past))
+    ranked = [replace(own, candidate=here), replace(other, candidate=there, fit=own.fit, score=own.score + behind)]
     confidences(ranked)
     tied = replace(finding, ranked=ranked[0], naming=Naming(ranked, []))
     result = replace(explained, findings=[tied], trial=None, reason="", experiment="")

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.library.search_path import search_path
@@ -16,8 +17,8 @@ from lacuna.discovery.efforts.guide import guide
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.places.opened import opened
-from lacuna.discovery.efforts.places.place import Place, told_apart
-from lacuna.discovery.efforts.places.sites import Site
+from lacuna.discovery.efforts.places.place import Place, adjoins, name_there, told_apart
+from lacuna.discovery.efforts.places.sites import Port, Site
 from lacuna.discovery.law.empirical_law import fitted_law
 from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.terms.law_terms import Group, Shape
@@ -28,6 +29,10 @@ from .recorded import concealed, record
 
 def place(location: str, *sites: Site) -> Place:
     return Place(location, sites, (0,), "N.m")
+
+
+def _varies(name: str, instance: str) -> Site:
+    return Site("parameter", name, parts=(Site("equation", f"f = {name}*v", instance=instance),), instance=instance)
 
 
 def test_both_ends_of_a_shaft_whose_twist_is_a_state_have_their_own_names() -> None:
@@ -47,6 +52,31 @@ def test_a_port_keeps_the_name_of_its_state_beside_the_wall_behind_it() -> None:
     shell = place("shell", Site("node", "film.b", ("film.b", "shell.a", "fins.a")))
     wall = place("shell", Site("edge", "film.b to shell.a", ("film.b", "shell.a")))
     assert [p.location for p in told_apart([wall, shell])] == ["shell", "shell"]
+
+
+FORCE, CURRENT = Port("Flange", "f", "s"), Port("Pin", "i", "v")
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "joined"),
+    [
+        (_varies("damper.d", "damper"), Site("node", "arm", ("arm.b", "damper.a"), FORCE), True),
+        (_varies("damper.d", "damper"), Site("node", "head", ("head.b", "spring.a"), FORCE), False),
+        (Site("node", "arm", ("arm.b", "damper.a"), FORCE), Site("node", "base", ("damper.b", "base.a"), FORCE), True),
+        (Site("node", "coil", ("coil.n", "emf.p"), CURRENT), Site("node", "shaft", ("emf.a", "shaft.a"), FORCE), False),
+        (_varies("d", ""), Site("node", "arm", ("arm.b", "damper.a"), FORCE), False),
+    ],
+)
+def test_what_varies_in_a_component_adjoins_what_that_holds(one: Site, other: Site, joined: bool) -> None:
+    """A voltage that is lost and a torque, on both sides of a motor, are two kinds of physics."""
+    assert adjoins(one, other) == adjoins(other, one) == joined
+
+
+def test_a_coefficient_of_another_component_is_named_by_that() -> None:
+    """What stretches a damper is told of the mass that it holds, which its place has the name of."""
+    assert name_there(_varies("damper.d", "damper"), "base") == "damper"
+    assert name_there(_varies("base.m", "base"), "base") == "base"
+    assert name_there(_varies("wheel.tyre.c", "wheel.tyre"), "wheel.tyre.spring") == "wheel.tyre.spring"
 
 
 ROTOR = """model Rotor "A disc that is no relative of the library's, between two dampers"

@@ -81,11 +81,14 @@ def own_name(site: Site) -> str:
 
 def name_there(site: Site, location: str) -> str:
     """What a place of that name is called where something is done at one of its sites: an input and an equation of
-    another component have names of their own, a coefficient where nothing of that name is in its equations."""
+    another component have names of their own, a coefficient of another component that of this, and any where nothing of
+    that name is in its equations."""
     if site.kind == "input":
         return site.label
     if site.kind == "equation" and site.instance and not f"{location}.".startswith(f"{site.instance}."):
         return own_name(site)
+    if site.kind == "parameter" and site.instance and not f"{location}.".startswith(f"{site.instance}."):
+        return site.instance
     read = rf"(?<![\w.]){re.escape(location)}(?![\w.])"
     alone = site.kind == "parameter" and "." not in site.label
     return site.label if alone and not any(re.search(read, part.label) for part in site.parts) else location
@@ -96,6 +99,19 @@ def touches(site: Site, location: str) -> bool:
     if site.kind == "equation":
         return f"der({location})" in (site.left or site.label) or site.instance == location
     return any(end.rpartition(".")[0] == location for end in site.ends)
+
+
+def adjoins(one: Site, other: Site) -> bool:
+    """Whether two sites are at one component, by ports that carry the same: a force in a damper, on what it holds."""
+    if one.port and other.port:
+        same = (one.port.flow, one.port.potential) == (other.port.flow, other.port.potential)
+        return same and bool(_joined(one) & _joined(other))
+    return any(a.instance and a.instance in _joined(b) for a, b in ((one, other), (other, one)))
+
+
+def _joined(site: Site) -> set[str]:
+    """The components that are joined there."""
+    return {owner for end in site.ends if (owner := end.rpartition(".")[0])}
 
 
 def size_of(name: str, along: Sequence[Along]) -> float:
