@@ -24,7 +24,7 @@ from lacuna.discovery.fit.lead import Lead
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.objective import STAGES
 from lacuna.discovery.naming.candidate_fit import without
-from lacuna.discovery.naming.comparison import CLOSE, MIN_GAIN, TIE, Progress, Ranked, confidences, price, score
+from lacuna.discovery.naming.comparison import CLOSE, MIN_GAIN, TIE, Progress, Ranked, confidences, price, rival_score, score
 from lacuna.discovery.naming.judge import Judgement, try_judge
 from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Contest, Finding, Naming, compete, screen_all
@@ -252,15 +252,14 @@ class Search:
             self.take([*others, best.attachment], polished, after)
 
     def drop_needless(self, progress: Progress) -> None:
-        """Drop what others do without: it stood for all as well as it could, or helped one of them out of a dip."""
+        """Drop what is not believed beside the others: it stood for all as well as it could, or for a sensor's zero."""
         for finding in list(self.findings):
             if len(self.findings) < 2:
                 return
             attachments = [a for a in self.amendment.attachments if a is not finding.ranked.attachment]
             found = self._without(finding.ranked, replace(self.amendment, attachments=attachments))
-            correlation = self.fit.correlation()
-            paid = price(len(finding.ranked.candidate.free), self.fit, correlation)
-            if found is None or found.deviance(correlation) > self.fit.deviance(correlation) + paid:
+            present = replace(finding.ranked.candidate, fit=self.fit)
+            if found is None or rival_score(present, found, self.fit.correlation()) < -MIN_GAIN:
                 continue
             after = try_judge(found.machine, found.point)
             if after is not None and not self._tells_better_than(found):

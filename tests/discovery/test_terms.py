@@ -73,6 +73,22 @@ def test_a_law_of_a_difference_reads_the_model_and_is_told_in_it() -> None:
     np.testing.assert_allclose(variable.course(along(**ROOM, To=290.0)[0].values), ROOM["T1"] - 290.0)
 
 
+def test_what_flows_with_a_power_of_either_end_is_offered_and_said_of_both() -> None:
+    kept = found()
+    paths = {v.local: v.course(along(**ROOM)[0].values) for v in kept} | {"time": TIME}
+    sizes = {v.local: v.size for v in kept}
+    ranges = {v.local: (float(paths[v.local].min()) / v.size, float(paths[v.local].max()) / v.size) for v in kept}
+    place = Site(Place("equation", "C1*der(T1) = P - q"), "T1", "W", tuple(kept))
+    both = [g for g in groups(kept, ranges, 0.05, 10.0) if re.match(r"\(abs.*\)\^4 - abs", g.texts[0])]
+    law = Law(place, (both[0],))
+    size = next(v.size for v in kept if v.name == "T1" and not v.minus)
+    assert law.expression({"c_1": -2.0}) == f"{-2.0 / size**4:.4g}*(abs(T1)^4 - abs(T2)^4)"
+    course = evaluate(both[0].texts[0], paths, sizes)
+    np.testing.assert_allclose(course, (ROOM["T1"] ** 4 - ROOM["T2"] ** 4) / size**4, rtol=1e-9)
+    assert len(both) == 1 and law.form({"c_1": -2.0}) == "radiation"
+    assert not any(" - abs(" in t and "P" in t for g in groups(kept, ranges, 0.05, 10.0) for t in g.texts)
+
+
 def test_every_term_can_be_evaluated_and_is_counted_by_how_many_variables_it_has() -> None:
     kept = found(To=290.0)
     paths = {v.local: v.course(along(**ROOM, To=290.0)[0].values) for v in kept} | {"time": TIME}

@@ -40,6 +40,7 @@ def groups(
             result.append(Group((v.scaled,)))
         elif v.kind != "rate":
             result += _alone(v) if low < 0 < high else _of_one_sign(v, low, high)
+        result += _driven(v, common, ranges) if v.kind == "apart" else []
         own = [rate for rate in common if rate.local == v.rate]
         result += [g for rate in own for g in (*_contacts(v, rate, low < 0 < high), *_hysteretic(v, rate, high - low))]
         free = next((w for w in found if w.kind == "unheld" and w.name == f"der({v.name})"), None)
@@ -110,6 +111,18 @@ def _of_one_sign(v: Variable, low: float, high: float) -> list[Group]:
     ends += [Group((f"abs{beyond(x)[0]}^{p}",), (q,)) for p in BEYOND for q in upwards]
     ends += [Group((f"({x} + {{q}} - abs({x} - {{q}}))",), (q,)) for q in upwards]  # up to a limit: what a dead zone
     return [Group((x,)), *power, *bend, *ends, *_yielding(v), *_falling_off(v)]  # loses, what a stop leaves
+
+
+def _driven(v: Variable, found: Sequence[Variable], ranges: dict[str, tuple[float, float]]) -> list[Group]:
+    """What goes with a power of one quantity less that of another one: a gas through a pipe with the squares of its
+    pressures, radiation with fourth powers of temperatures."""
+    ends = [w for name in (v.name, v.minus) for w in found if w.name == name and not w.minus]
+    if len(ends) < 2 or any(ranges[w.local][0] < 0 for w in ends):
+        return []
+    a, b = ends
+    x, y = f"abs{a.scaled}", f"abs({b.size / a.size:.15g}*{b.scaled})"
+    fixed = [Group((f"({x}^{p:.4g} - {y}^{p:.4g})",)) for p in EXPONENTS]
+    return [*fixed, *(Group((f"({x}^{{p}} - {y}^{{p}})",), (exponent(p, 0.75),)) for p in (0.75, 2.5, 5.0))]
 
 
 def thresholds(low: float, high: float) -> tuple[list[Shape], list[Shape]]:

@@ -45,6 +45,7 @@ class Form:
 
 FORMS = (
     Form("radiation", POWER, HEAT, WARMTH, 4.0),
+    Form("radiation", r"^\(abs\(X\)\^({p}|[\d.]+) - abs\(\S+\*Y\)\^", HEAT, WARMTH, 4.0),
     Form("convection.natural", POWER, HEAT, WARMTH, 1.25),
     Form("drag.quadratic", POWER, FORCE, SPEED, 2.0),
     Form("stiffness.hardening", POWER, FORCE, PLACE, 3.0),

@@ -125,14 +125,14 @@ def _accumulated(name: str, first: _Scaled, time: _Scaled) -> _Scaled:
 
 def _common(parts: Sequence[_Scaled]) -> float:
     """The size of the number before all parts that are none themselves; 1 where they differ."""
-    sizes = {abs(p.factor) for p in parts if p.of is not None} - {0.0}
-    return sizes.pop() if len(sizes) == 1 else 1.0
+    sizes = sorted({abs(p.factor) for p in parts if p.of is not None} - {0.0})
+    return sizes[0] if sizes and math.isclose(sizes[0], sizes[-1]) else 1.0
 
 
 def _part(part: _Scaled, share: float) -> ast.expr:
     """A part over what is taken out; a number that is compared with others has a digit more than one that scales."""
     if part.of is not None:
-        return replace(part, factor=part.sign if abs(part.factor) == share else part.factor / share).node()
+        return replace(part, factor=part.sign if math.isclose(abs(part.factor), share) else part.factor / share).node()
     return _number(part.factor / share, 5)
 
 
