@@ -23,7 +23,7 @@ from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.latent.thinned import thinned_all
 from lacuna.discovery.efforts.located import SIZES, TIMES, Locator
 from lacuna.discovery.efforts.places.opened import opened
-from lacuna.discovery.fit.evidence import INSTRUMENTS, may_be_coloured, within_instruments
+from lacuna.discovery.fit.evidence import INSTRUMENTS, may_be_instruments
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.naming.comparison import MIN_GAIN
 from lacuna.runtime import SimulationError
@@ -39,10 +39,11 @@ Rows = tuple[np.ndarray, np.ndarray]  # (sizes (h,), times (h,)) that one chain 
 def only_instruments(case: Case, amendment: Amendment, fit: Fit) -> bool:
     """Whether what `fit`, that of `amendment`, leaves may be noise of an unknown level with a colour of its own.
 
-    False where levels are given and exceeded, where it comes in bursts, and where no place of the equations is open.
+    False where given levels are exceeded by more than instruments are off by, where it comes in bursts, and where no
+    place of the equations is open.
     """
     if fit.only_instruments is None:
-        locator = locator_of(case, amendment, fit) if may_be_coloured(fit) else None
+        locator = locator_of(case, amendment, fit) if may_be_instruments(fit) else None
         fit.only_instruments = locator is not None and bool(locator.places) and weighed(locator) < NATS
     return fit.only_instruments
 
@@ -53,7 +54,7 @@ def gained(case: Case, before: tuple[Amendment, Fit], after: tuple[Amendment, Fi
     locators = [locator_of(case, *model) for model in (before, after)]
     if None in locators:
         return -np.inf
-    clocks = within_instruments(before[1])
+    clocks = may_be_instruments(before[1])
     without, with_it = (_fitted(_pieces(x, clocks), _NOTHING, _worst(x))[1] for x in locators)
     return with_it - without
 
@@ -77,7 +78,7 @@ def locator_of(case: Case, amendment: Amendment, fit: Fit) -> Locator | None:
 def weighed(locator: Locator) -> float:
     """What an effort at any place explains beside the instruments' own errors, in nats over these alone. It is sought
     beside those, which may have had to stand for it, and beside none."""
-    pieces, worst = _pieces(locator, within_instruments(locator.base)), _worst(locator)
+    pieces, worst = _pieces(locator, may_be_instruments(locator.base)), _worst(locator)
     alone, log = _fitted(pieces, _NOTHING, worst)
     begun = (_with_effort(locator, pieces, colour) for colour in (alone.colour, _NOTHING.colour))
     return max(_fitted(pieces, effort, worst)[1] for effort in begun) - log

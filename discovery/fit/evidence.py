@@ -116,6 +116,13 @@ def may_be_coloured(fit: Fit) -> bool:
     return True
 
 
+def may_be_instruments(fit: Fit) -> bool:
+    """Whether what is left is no more than instruments may be off by beside noise of a given level, or than noise as
+    estimated may have, without outbursts."""
+    most = {c: INSTRUMENTS if n.given else COLOURED for c, n in fit.noise.items()}
+    return all(fit.level[c] < most[c] and not _bursts(fit, c) for c in fit.noise)
+
+
 def _bursts(fit: Fit, column: str) -> bool:
     """Whether the RMS of a residual is that of a few moments: at edges of a current, say, that come too late."""
     rows = [np.abs(r[column]) for r in fit.residuals.values()]

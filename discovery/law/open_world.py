@@ -15,6 +15,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.catalogue.trace import left
 from lacuna.discovery.efforts.find import WORTH, Found, add_laws, alike, alike_first, is_family, places_of, simplest
+from lacuna.discovery.efforts.instruments import only_instruments
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.fit.evidence import (
     FAR,
@@ -95,13 +96,13 @@ def explain_open(
     """Locate and explain what `unbegun`, the believed model, lacks, unless `search` has explained it in its equations;
     where what it found there leaves more than noise, laws at other places beside it. `places` may be known already;
     `located` is told of them as soon as they are, since the time may be up before a law is found.
-    Where several effects explain it, they may stand for one law that the catalogue does not have.
+    Where several effects explain it, they may stand for one law that the catalogue does not have. Of what instruments
+    may leave by themselves only the best place is asked.
 
     Of no use where one has explained it, or where fits need shafts held near their motion: those are left to the
     catalogue.
     """
-    quiet = nearly_noise(unbegun.fit) and like_noise(unbegun.fit)  # colour alone may also be a misfit of fast motion
-    if not unbegun.lead.direct or unbegun.amendment.trackers or quiet:
+    if not unbegun.lead.direct or unbegun.amendment.trackers or _is_quiet(unbegun):
         return
     explained = search.settled() or within_instruments(search.fit)
     explained = explained and any(not f.ranked.attachment.variable for f in search.findings)
@@ -109,8 +110,10 @@ def explain_open(
         return
     found = places or places_of(search.case, unbegun.amendment, unbegun.fit, library, progress)
     located(found)
-    add_laws(found, search.case, unbegun.amendment, unbegun.fit, progress, most=alike_first(found))
-    if explained:
+    theirs = only_instruments(search.case, unbegun.amendment, unbegun.fit)  # an effort says no more, a law hardly may
+    most = 1 if theirs else alike_first(found)
+    add_laws(found, search.case, unbegun.amendment, unbegun.fit, progress, most=most)
+    if explained or theirs:
         if found.short:
             _take(search, unbegun, found, progress)
         return
@@ -126,6 +129,13 @@ def explain_open(
             take_if_less(search, two, unbegun.fit)
     among_sensors(search, progress)
     simplify(search, progress)
+
+
+def _is_quiet(unbegun: Search) -> bool:
+    """Whether the believed model leaves hardly more than noise, and that with the memory of noise (colour alone may
+    also be a misfit of fast motion), or as instruments err beside it."""
+    fit = unbegun.fit
+    return nearly_noise(fit) and (like_noise(fit) or only_instruments(unbegun.case, unbegun.amendment, fit))
 
 
 def take_at_last(search: Search, unbegun: Search, found: Found, progress: Progress) -> None:

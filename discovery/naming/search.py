@@ -24,7 +24,17 @@ from lacuna.discovery.fit.lead import Lead
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.objective import STAGES
 from lacuna.discovery.naming.candidate_fit import without
-from lacuna.discovery.naming.comparison import CLOSE, MIN_GAIN, TIE, Progress, Ranked, confidences, price, rival_score, score
+from lacuna.discovery.naming.comparison import (
+    CLOSE,
+    MIN_GAIN,
+    TIE,
+    Progress,
+    Ranked,
+    confidences,
+    price,
+    rival_score,
+    score,
+)
 from lacuna.discovery.naming.judge import Judgement, try_judge
 from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Contest, Finding, Naming, compete, screen_all
@@ -78,7 +88,8 @@ class Search:
             return False
         if settled(self.fit, rough=not self.lead.direct):
             return True
-        return bool(self.findings) and self.lead.direct and only_instruments(self.case, self.amendment, self.fit)
+        told = bool(self.findings) or nearly_noise(self.fit)  # by what was found, or nothing
+        return told and self.lead.direct and only_instruments(self.case, self.amendment, self.fit)
 
     def lost(self) -> bool:
         """Whether fits that nothing has led leave so much that the search has to begin anew."""
