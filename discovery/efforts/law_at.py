@@ -82,7 +82,8 @@ class LawsAt:
             near = _near(tried, best, base)
             best = _best([best, *(v for law in near for v in _varied(self.case, self.amendment, base, law))], base)
         if best is not None and len(best.law.groups) > 1:
-            return _shortest([p for p in tried if len(p.law.groups) > 1], best, base)
+            several = [p for p in tried if len(p.law.groups) > 1]
+            return _shortest([*([self._single] if self._single else []), *several], best, base)
         self._single = best
         return best
 

@@ -146,7 +146,15 @@ def beyond_zeros(ranked: list[Ranked], base: Fit, correlation: dict[str, float])
     return kept
 
 
+def needed(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> bool:
+    """Whether a finding is believed beside the others, of which `base` is the fit: beside zeros of sensors, and of an
+    error of a sensor not where its noise hides it."""
+    small = bool(candidate.attachment.variable) and nearly_noise(base)
+    return not small and rival_score(candidate, base, correlation) < -MIN_GAIN
+
+
 def _is_zero(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> bool:
+    """Whether an error of a sensor says no more than that zeros are off and drift."""
     if not candidate.attachment.variable or max(map(largest_zero, (base, candidate.fit))) > 1.0:
         return False
     beside = replace(candidate, fit=beside_zeros(candidate.fit))

@@ -24,17 +24,7 @@ from lacuna.discovery.fit.lead import Lead
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.objective import STAGES
 from lacuna.discovery.naming.candidate_fit import without
-from lacuna.discovery.naming.comparison import (
-    CLOSE,
-    MIN_GAIN,
-    TIE,
-    Progress,
-    Ranked,
-    confidences,
-    price,
-    rival_score,
-    score,
-)
+from lacuna.discovery.naming.comparison import CLOSE, MIN_GAIN, TIE, Progress, Ranked, confidences, needed, price, score
 from lacuna.discovery.naming.judge import Judgement, try_judge
 from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Contest, Finding, Naming, compete, screen_all
@@ -270,7 +260,7 @@ class Search:
             attachments = [a for a in self.amendment.attachments if a is not finding.ranked.attachment]
             found = self._without(finding.ranked, replace(self.amendment, attachments=attachments))
             present = replace(finding.ranked.candidate, fit=self.fit)
-            if found is None or rival_score(present, found, self.fit.correlation()) < -MIN_GAIN:
+            if found is None or needed(present, found, self.fit.correlation()):
                 continue
             after = try_judge(found.machine, found.point)
             if after is not None and not self._tells_better_than(found):
