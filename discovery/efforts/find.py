@@ -17,7 +17,7 @@ from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.trace import left
-from lacuna.discovery.efforts.instruments import colour_of
+from lacuna.discovery.efforts.instruments import colour_of, only_instruments
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.law_at import TRIED, LawsAt
 from lacuna.discovery.efforts.located import Locator, Site
@@ -124,8 +124,12 @@ def _beaten(site: Site, best: Site) -> bool:
 def _enough(found: Found, begun: list[LawsAt], base: Fit) -> bool:
     """Whether a law of one term leaves noise, of those found and of those looked for."""
     first = _first(begun, base)
-    short = first is not None and first.best.law.terms == 1 and nearly_noise(first.best.candidate.fit)
-    return short or (found.short and nearly_noise(found.laws[0].fit))
+    short = first is not None and first.best.law.terms == 1 and _leaves_noise(first.best.candidate.fit)
+    return short or (found.short and _leaves_noise(found.laws[0].fit))
+
+
+def _leaves_noise(fit: Fit) -> bool:
+    return nearly_noise(fit) or only_instruments(fit.machine.case, fit.machine.amendment, fit)
 
 
 def _first(begun: list[LawsAt], base: Fit) -> LawsAt | None:

@@ -23,7 +23,7 @@ from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.latent.thinned import thinned_all
 from lacuna.discovery.efforts.located import SIZES, TIMES, Locator
 from lacuna.discovery.efforts.places.opened import opened
-from lacuna.discovery.fit.evidence import INSTRUMENTS, may_be_instruments
+from lacuna.discovery.fit.evidence import INSTRUMENTS, may_be_instruments, within_instruments
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.naming.comparison import MIN_GAIN
 from lacuna.runtime import SimulationError
@@ -46,6 +46,12 @@ def only_instruments(case: Case, amendment: Amendment, fit: Fit) -> bool:
         locator = locator_of(case, amendment, fit) if may_be_instruments(fit) else None
         fit.only_instruments = locator is not None and bool(locator.places) and weighed(locator) < NATS
     return fit.only_instruments
+
+
+def theirs(fit: Fit) -> bool:
+    """Whether what a fit leaves may be what instruments are off by beside their noise: by its size, or by its evidence
+    where nobody gave that of the noise."""
+    return within_instruments(fit) or only_instruments(fit.machine.case, fit.machine.amendment, fit)
 
 
 def gained(case: Case, before: tuple[Amendment, Fit], after: tuple[Amendment, Fit]) -> float:

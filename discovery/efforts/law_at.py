@@ -11,6 +11,7 @@ from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.trace import looking
 from lacuna.discovery.efforts.guide import Guided, guide
+from lacuna.discovery.efforts.instruments import only_instruments
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.laws.begun import begun_at
 from lacuna.discovery.efforts.laws.screening import proposals
@@ -49,8 +50,8 @@ class LawsAt:
 
     @property
     def settled(self) -> bool:
-        """Whether the best law leaves noise."""
-        return self.best is not None and settled(self.best.candidate.fit)
+        """Whether the best law leaves noise, or what instruments may be off by beside it."""
+        return self.best is not None and _settled(self.best.candidate.fit)
 
     def go_on(self) -> bool:
         """Fit the laws of one more round; whether there was one."""
@@ -99,6 +100,10 @@ class LawsAt:
         apart = best is not single and best.law.terms > 1
         best = simplified(self.case, self.amendment, self.base, best)
         return best, single.candidate if apart and single else None
+
+
+def _settled(fit: Fit) -> bool:
+    return settled(fit) or only_instruments(fit.machine.case, fit.machine.amendment, fit)
 
 
 def _near(fitted: list[Proposal], best: Proposal, base: Fit) -> list[Proposal]:

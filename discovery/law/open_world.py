@@ -15,7 +15,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.catalogue.trace import left
 from lacuna.discovery.efforts.find import WORTH, Found, add_laws, alike, alike_first, is_family, places_of, simplest
-from lacuna.discovery.efforts.instruments import only_instruments
+from lacuna.discovery.efforts.instruments import only_instruments, theirs
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.fit.evidence import (
     FAR,
@@ -24,7 +24,6 @@ from lacuna.discovery.fit.evidence import (
     excess,
     like_noise,
     nearly_noise,
-    within_instruments,
 )
 from lacuna.discovery.law.beyond import margin
 from lacuna.discovery.law.together.joining import two_places
@@ -104,16 +103,16 @@ def explain_open(
     """
     if not unbegun.lead.direct or unbegun.amendment.trackers or _is_quiet(unbegun):
         return
-    explained = search.settled() or within_instruments(search.fit)
+    explained = search.settled() or theirs(search.fit)
     explained = explained and any(not f.ranked.attachment.variable for f in search.findings)
     if explained and len(search.findings) == 1:
         return
     found = places or places_of(search.case, unbegun.amendment, unbegun.fit, library, progress)
     located(found)
-    theirs = only_instruments(search.case, unbegun.amendment, unbegun.fit)  # an effort says no more, a law hardly may
-    most = 1 if theirs else alike_first(found)
+    hidden = only_instruments(search.case, unbegun.amendment, unbegun.fit)  # an effort says no more, a law hardly may
+    most = 1 if hidden else alike_first(found)
     add_laws(found, search.case, unbegun.amendment, unbegun.fit, progress, most=most)
-    if explained or theirs:
+    if explained or hidden:
         if found.short:
             _take(search, unbegun, found, progress)
         return
@@ -122,7 +121,7 @@ def explain_open(
         return
     told = pair is not None and pair[1].site.explains > WORTH
     two = _two(unbegun, found, pair, library, progress) if told else None
-    short = two is not None and within_instruments(two.fit) and all(map(is_short, two.findings))
+    short = two is not None and theirs(two.fit) and all(map(is_short, two.findings))
     if not (short and take_if_less(search, two, unbegun.fit)):
         _one_by_one(search, unbegun, found, None if told else pair, library, progress)
         if two is not None:
@@ -153,7 +152,7 @@ def _one_by_one(
     taken = bool(found.laws) and _take(search, unbegun, found, progress)
     physics = any(not f.ranked.attachment.variable for f in search.findings) and not search.amendment.trackers
     long = taken and not found.short and bool(found.single)
-    whole = bool(search.findings) and within_instruments(search.fit) and not long
+    whole = bool(search.findings) and theirs(search.fit) and not long
     two = None if whole or pair is None else _two(unbegun, found, pair, library, progress)
     if taken or physics:
         go_on(search, library, progress)
@@ -174,7 +173,7 @@ def _beside_error(
     several = pair is None or any(is_family(p.site) for p in pair)
     sensor = to_be_left_out(found, told, progress, lambda site: several or not is_family(site))
     trial = sensor and beside_error(unbegun, sensor, library, progress)
-    return trial is not None and take_if_less(search, trial, unbegun.fit) and within_instruments(search.fit)
+    return trial is not None and take_if_less(search, trial, unbegun.fit) and theirs(search.fit)
 
 
 def _two(
@@ -198,8 +197,8 @@ def _pair(search: Search, found: Found, progress: Progress) -> tuple[Place, Plac
 
 def _is_left(search: Search, found: Found) -> bool:
     """Whether what the search has found leaves more than noise, and so does a short law at the best place."""
-    short = bool(found.laws) and found.short and within_instruments(found.laws[0].fit)
-    return not short and not within_instruments(search.fit)
+    short = bool(found.laws) and found.short and theirs(found.laws[0].fit)
+    return not short and not theirs(search.fit)
 
 
 def _take(search: Search, unbegun: Search, found: Found, progress: Progress) -> bool:

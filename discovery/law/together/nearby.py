@@ -13,7 +13,7 @@ from dataclasses import replace
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.find import INDIFFERENT, Found, alike, places_of, simplest
-from lacuna.discovery.fit.evidence import within_instruments
+from lacuna.discovery.efforts.instruments import theirs
 from lacuna.discovery.law.together.several import elsewhere, go_on, is_of_form, take_if_less
 from lacuna.discovery.naming.search import Search
 
@@ -29,20 +29,20 @@ def go_on_nearby(search: Search, library: Library, progress: Progress) -> bool:
     if near:
         trials.append(_copied(search, near))
         trials[0].run(progress, most=len(search.findings) + 1)
-    if not trials or not within_instruments(trials[0].fit):
+    if not trials or not theirs(trials[0].fit):
         trials.append(_copied(search))
         go_on(trials[-1], library, progress, found)
     before, known = search.fit, len(search.findings)
     for trial in (t for t in trials if len(t.findings) > known):
         if take_if_less(search, trial, before):
             search.namings[:] = trial.namings
-    return within_instruments(search.fit)
+    return theirs(search.fit)
 
 
 def _places_left(search: Search, library: Library, progress: Progress) -> Found | None:
     """The places of what is left beside effects in the equations; none where that is another form of what was found."""
     sensors = all(f.ranked.attachment.variable for f in search.findings)
-    if sensors or not search.lead.direct or search.amendment.trackers or within_instruments(search.fit):
+    if sensors or not search.lead.direct or search.amendment.trackers or theirs(search.fit):
         return None
     found = places_of(search.case, search.amendment, search.fit, library, progress)
     efforts = simplest(found.sites)

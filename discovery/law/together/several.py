@@ -17,8 +17,9 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.catalogue.trace import left
 from lacuna.discovery.efforts.find import INDIFFERENT, Found, add_laws, find, places_of, simplest
+from lacuna.discovery.efforts.instruments import theirs
 from lacuna.discovery.efforts.located import Site
-from lacuna.discovery.fit.evidence import common_correlation, pays, within_instruments
+from lacuna.discovery.fit.evidence import common_correlation, pays
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.law.beyond import MARGIN
 from lacuna.discovery.law.empirical_law import simplified
@@ -39,7 +40,7 @@ def go_on(search: Search, library: Library, progress: Progress, places: Found | 
     """Add laws at other places while the model leaves more than instruments are off by and they pay; find earlier ones
     anew, and drop what these do without. `places` of what is left now may be known."""
     known = len(search.findings)
-    while len(search.findings) < MAX_FINDINGS and not within_instruments(search.fit):
+    while len(search.findings) < MAX_FINDINGS and not theirs(search.fit):
         progress("looking for a law at another place")
         found = places or places_of(search.case, search.amendment, search.fit, library, progress)
         free, places = elsewhere(search.amendment), None

@@ -19,11 +19,11 @@ from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.case.signals import Signal
 from lacuna.discovery.efforts.find import Found, add_laws, places_of, simplest
-from lacuna.discovery.efforts.instruments import NATS
+from lacuna.discovery.efforts.instruments import NATS, theirs
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.law_at import TRIED
 from lacuna.discovery.efforts.located import Site
-from lacuna.discovery.fit.evidence import pays, within_instruments
+from lacuna.discovery.fit.evidence import pays
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.lead import fit_believed
 from lacuna.discovery.law.empirical_law import unmoved
@@ -101,7 +101,7 @@ def _law_without(unbegun: Search, sensor: Signal, library: Library, progress: Pr
     found = places_of(case, unbegun.amendment, base, library, progress)
     add_laws(found, case, unbegun.amendment, base, progress)
     law = found.laws[0] if found.laws else None
-    return law if law is not None and within_instruments(law.fit) else None
+    return law if law is not None and theirs(law.fit) else None
 
 
 def _as_found(law: Candidate, base: Fit) -> Proposal:
