@@ -14,7 +14,7 @@ import pytest
 
 import lacuna
 from lacuna.analysis.map.maps import build_map
-from lacuna.analysis.report.page import unbroken
+from lacuna.analysis.report.page import page, unbroken
 from tests.analysis.plants import ReferencePlant, paper_settings
 from tests.analysis.reference import simulate
 from tests.analysis.test_assessment import COLUMNS, write
@@ -142,6 +142,11 @@ def test_a_page_says_nothing_of_the_instant_or_the_place_where_it_was_made(pages
     text = pages[name].read_text(encoding="utf-8")
     assert str(pages[name].parents[1]) not in text
     assert not re.search(r"\b20\d\d-\d\d-\d\d\b", text)
+
+
+def test_a_page_bears_the_date_that_it_is_given(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1796083200")
+    assert ", 2026-12-01 00:00 UTC. Made by" in page("Title", Markup(""))
 
 
 def test_a_figure_is_enlarged_by_dragging_and_whole_again_by_its_button(pages: dict[str, Path], browser: Any) -> None:
