@@ -52,7 +52,8 @@ def fleet(
     table = run_fleet(
         read, work, folder, scheduler=scheduler, progress=lambda done, count: tell("forecasts", done / count)
     )
-    write_whole(folder / "fleet.html", overview(table, limits, f"Fleet: {Path(histories).name}", files_of(histories)))
+    page = overview(table, limits, f"Fleet: {Path(histories).name}", files_of(histories), risk)
+    write_whole(folder / "fleet.html", page)
     return table
 
 

@@ -171,8 +171,11 @@ def _handler(shown: _Shown) -> type[BaseHTTPRequestHandler]:
                        "style-src 'unsafe-inline'; connect-src 'self'; img-src data:"}  # fmt: skip
             for name, value in headers.items():
                 self.send_header(name, value)
-            self.end_headers()
-            self.wfile.write(body)
+            try:
+                self.end_headers()
+                self.wfile.write(body)
+            except ConnectionError:  # the page was closed meanwhile
+                self.close_connection = True
 
         def log_message(self, *_: object) -> None:
             """Nothing: the terminal is for what was drawn."""

@@ -20,6 +20,7 @@ class SignalDeviation:
     rms: float
     scale: float
     at_time: float
+    unit: str = ""
 
     @property
     def relative(self) -> float:
@@ -42,7 +43,7 @@ Events = Sequence[tuple[float, str]]  # time (s) and kind: what happened
 
 
 def signal_deviation(
-    name: str, time: Array, reference: Array, candidate: Array, use: Array, scale: float | None = None
+    name: str, time: Array, reference: Array, candidate: Array, use: Array, scale: float | None = None, unit: str = ""
 ) -> SignalDeviation:
     """Maximum and RMS of the difference over the samples marked in `use` (all arrays [n]).
 
@@ -51,11 +52,11 @@ def signal_deviation(
     if scale is None:
         scale = float(np.nanmax(np.abs(reference), initial=0.0))
     if not use.any():
-        return SignalDeviation(name, np.nan, np.nan, scale, np.nan)
+        return SignalDeviation(name, np.nan, np.nan, scale, np.nan, unit)
     difference = np.abs(candidate - reference)[use]
     worst = int(np.argmax(np.where(np.isnan(difference), np.inf, difference)))
     return SignalDeviation(
-        name, float(difference[worst]), float(np.sqrt(np.mean(difference**2))), scale, float(time[use][worst])
+        name, float(difference[worst]), float(np.sqrt(np.mean(difference**2))), scale, float(time[use][worst]), unit
     )
 
 

@@ -11,6 +11,7 @@ from types import MappingProxyType
 from markupsafe import Markup
 import numpy as np
 
+from lacuna.analysis.comparison.deviation import SignalDeviation
 from lacuna.analysis.comparison.figures import CAPTIONS
 from lacuna.analysis.comparison.study import LaneResult, Study
 from lacuna.analysis.report.page import figure_in, page
@@ -36,9 +37,14 @@ def report_html(
         findings="\n".join(f"<li>{escape(text)}</li>" for text in said),
     )  # fmt: skip
     return page(
-        "Variable step against fixed step", Markup(body), verdict=said[0] if said else "", action=_ACTION,
+        _title(studies), Markup(body), verdict=f"{said[0][0].upper()}{said[0][1:]}." if said else "", action=_ACTION,
         inputs=inputs, notes=[f"Model {name}: {value}" for name, value in hashes.items()],
     )  # fmt: skip
+
+
+def _title(studies: Sequence[Study]) -> str:
+    of = studies[0].scenario.title if len(studies) == 1 else _scenarios(len(studies))
+    return f"Variable step against fixed step: {of}"
 
 
 def _scenarios(count: int) -> str:
@@ -70,13 +76,24 @@ def _variable(studies: Sequence[Study]) -> list[str]:
     failed = sum(lane.failure is not None for study in studies for lane in study.lanes)
     said = []
     if variable:
-        signals = max(signal.relative for lane in variable for signal in lane.signals)
+        worst = max((signal for lane in variable for signal in lane.signals), key=lambda s: s.relative)
         matched = [lane.events.maximum for lane in variable if lane.events.matched]
         times = f", event times within {max(matched):.1e} s" if matched else ""
         said.append(
-            f"variable steps at 1e-6 or tighter: signals within {signals:.1e} of the reference, relative{times}"
+            f"variable steps at 1e-6 or tighter: signals within {worst.relative:.1e} of the reference, relative "
+            f"({worst.name}{_where(studies, worst)}){times}"
         )
     return said + [f"{failed} run{'s' * (failed != 1)} failed: the tables say why"] * bool(failed)
+
+
+def _where(studies: Sequence[Study], worst: SignalDeviation) -> str:
+    """The scenario of a deviation, and the largest one of all others, where there are several scenarios."""
+    if len(studies) == 1:
+        return ""
+    found = {s.scenario.title: [x for r in s.lanes if _counts(r) for x in r.signals] for s in studies}
+    own = next(title for title, signals in found.items() if any(x is worst for x in signals))
+    others = max((x.relative for title, signals in found.items() if title != own for x in signals), default=0.0)
+    return f" in {own}; {others:.1e} in all others"
 
 
 def _has_events(study: Study) -> bool:
@@ -155,11 +172,16 @@ def _lane_row(result: LaneResult) -> list[str]:
         return [result.lane.label, f"{result.seconds:.2g}", "failed", "", "", "", "", "", ""]
     worst = max(result.signals, key=lambda s: s.relative)
     return [
-        result.lane.label, f"{result.seconds:.2g}", worst.name, f"{worst.maximum:.2e}", f"{worst.relative:.2e}",
+        result.lane.label, f"{result.seconds:.2g}", worst.name, _with_unit(worst), f"{worst.relative:.2e}",
         *(["-", "-"] if np.isnan(result.events.at_time) else
           [f"{result.events.maximum:.1e}", f"{result.events.at_time:.5g}"]),
         str(result.events.unmatched), f"{result.counters['steps']:,}",
     ]  # fmt: skip
+
+
+def _with_unit(worst: SignalDeviation) -> str:
+    unit = "" if worst.unit in ("", "1") else f"\N{NO-BREAK SPACE}{worst.unit}"
+    return f"{worst.maximum:.2e}{unit}"
 
 
 def _image(stem: str, kind: str, folder: Path) -> str:

@@ -129,16 +129,18 @@ def _simulate(scenario: Scenario, model: runtime.Model, lane: Lane, grid: np.nda
     return result, clock.thread_time() - begin
 
 
-def _scales(model: runtime.Model, reference: runtime.Result) -> dict[str, float]:
-    """What a deviation of each signal is relative to: its largest magnitude, but not less than a part of the largest
-    of all signals with its unit. The current of an open leg, zero but for rounding, is thus measured as a current.
+def _scales(model: runtime.Model, reference: runtime.Result) -> dict[str, tuple[float, str]]:
+    """What a deviation of each signal is relative to, and its unit: its largest magnitude, but not less than a part of
+    the largest of all signals with its unit. The current of an open leg, zero but for rounding, is thus measured as a
+    current.
     """
     own = {name: float(np.max(np.abs(reference[name]), initial=0.0)) for name in _signals(model)}
     largest: dict[str, float] = {}
     for name, magnitude in own.items():
         unit = model.variables[name].unit
         largest[unit] = max(largest.get(unit, 0.0), magnitude)
-    return {name: max(own[name], SMALL_SIGNAL * largest[model.variables[name].unit]) for name in own}
+    units = {name: model.variables[name].unit for name in own}
+    return {name: (max(own[name], SMALL_SIGNAL * largest[unit]), unit) for name, unit in units.items()}
 
 
 def _signals(model: runtime.Model) -> list[str]:
@@ -159,13 +161,16 @@ def _measure(
     seconds: float,
     reference: runtime.Result,
     result: runtime.Result,
-    scales: dict[str, float],
+    scales: dict[str, tuple[float, str]],
 ) -> LaneResult:
     rows = min(len(reference.time), len(result.time))
     time = reference.time[:rows]
     pairs, _ = event_pairs(_events(reference), _events(result))
     use = outside_event_gaps(time, pairs)
-    signals = [signal_deviation(n, time, reference[n][:rows], result[n][:rows], use, s) for n, s in scales.items()]
+    signals = [
+        signal_deviation(name, time, reference[name][:rows], result[name][:rows], use, scale, unit)
+        for name, (scale, unit) in scales.items()
+    ]
     return LaneResult(
         lane, seconds, dict(result.counters), None if result.complete else str(result.failure),
         event_deviation(_events(reference), _events(result)), signals, {n: result[n][:rows] for n in scenario.shown},

@@ -10,9 +10,9 @@ from markupsafe import Markup
 from lacuna.analysis.report.page import figure, heading, page, paragraph, table
 
 
-def report_html(done: Any, svg: str, data: str, inputs: list[Path]) -> str:
+def report_html(done: Any, svg: str, data: str, inputs: list[Path], caption: str) -> str:
     """`done` is an Assessment, of one fault or two: the first half of its sentence is the verdict, the rest what the
-    band advises. `svg` shows the recording on its map, `data` is that as CSV."""
+    band advises. `svg` shows the recording on its map, which `caption` explains; `data` is that as CSV."""
     recording, warnings, features = Path(done.recording), done.warnings, done.features
     verdict, action = _split(done.sentence)
     rows = [
@@ -24,7 +24,7 @@ def report_html(done: Any, svg: str, data: str, inputs: list[Path]) -> str:
         (f"first peak of phase {phase}, Hz", _hertz(value))
         for phase, value in zip("ABC", features["peak_hz"], strict=False)
     ]
-    body = [figure(svg, f"{recording.name} on its map", verdict, ("assessment.csv", data))]
+    body = [figure(svg, f"{recording.name} on its map", caption, ("assessment.csv", data))]
     if warnings:
         items = Markup("").join(Markup("<li>{}</li>").format(text) for text in warnings)
         body += [heading("What was odd"), Markup("<ul>{}</ul>").format(items)]

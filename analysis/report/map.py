@@ -34,7 +34,10 @@ def report_html(plant: Plant, settings: Settings, rows: list[Row], summary: dict
         f"{settings.fault.text(first.severity)} to {1e3 * last.rms_mean:.1f} mA at "
         f"{settings.fault.text(last.severity)}."
     )
-    action = "read a measured pre-flight test back as a severity: lacuna assess RECORDING --map FOLDER OF THIS MAP"
+    action = Markup(
+        "read a measured pre-flight test back as a severity: <code>lacuna assess RECORDING --map FOLDER</code>, the "
+        "folder of this map"
+    )
     body = Markup(_body(plant, settings, rows, summary, folder))
     return page(
         f"Operating map: {settings.title}", body, verdict=verdict, action=action,
@@ -81,6 +84,11 @@ def _value(value: Any, unit: str, sign: str = "") -> str:
     return escape(f"{text} {unit}" if unit not in ("", "line") else text)
 
 
+def _published(value: Any, unit: str) -> str:
+    """With the digits that were published."""
+    return _value(f"{value:.12g}" if isinstance(value, float) else value, unit)
+
+
 def _comparison(comparison: list[dict[str, Any]]) -> str:
     if not comparison:
         return ""
@@ -92,7 +100,7 @@ def _comparison(comparison: list[dict[str, Any]]) -> str:
         else:
             difference = "same" if published == found else "differs"
         name = escape(entry["quantity"] + (" (spectral line)" if unit == "line" else ""))
-        rows.append([name, _value(published, unit), _value(found, unit), difference])
+        rows.append([name, _published(published, unit), _value(found, unit), difference])
     table = _table(["quantity", "published", "reproduced", "difference"], rows)
     return f"<h2>Published and reproduced</h2>\n{table}\n{_CONSISTENT_SET}"
 

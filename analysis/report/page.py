@@ -24,6 +24,7 @@ import lacuna
 
 _HERE = Path(__file__).parent
 LONG = 200_000  # bytes of a figure's data: a page of many figures is still to be sent by mail
+_BEFORE_UNIT = re.compile(r"(?<=\d) (?=(?:%|[munk\u00b5]?(?:[AVWsgmKN]|rad|Hz|Ohm)|\w+[./]\w+|\u00b0)(?![\w-])|\u00b1)")
 _ASIDE = ("--out", "-o", "--jobs", "--scheduler", "--chunk", "--watch", "--port")
 _SETTING = Environment(loader=FileSystemLoader(_HERE), autoescape=True, undefined=StrictUndefined, trim_blocks=True)
 
@@ -41,7 +42,7 @@ def page(
     which the page says the SHA-256; `notes` are further lines of where it came from."""
     files = [(path.name, hashlib.sha256(path.read_bytes()).hexdigest()) for path in inputs if path.is_file()]
     return _SETTING.get_template("page.html").render(
-        title=title, body=body, verdict=verdict, action=action, files=files, notes=notes,
+        title=title, body=body, verdict=unbroken(verdict), action=unbroken(action), files=files, notes=notes,
         script=Markup((_HERE / "page.js").read_text(encoding="utf-8")),
         style=Markup((_HERE / "page.css").read_text(encoding="utf-8")), version=lacuna.__version__,
         command=_command(sys.argv), made=_made(),
@@ -72,7 +73,9 @@ def table(header: Sequence[object], rows: Iterable[Sequence[object]], numbers: r
 
     def line(tag: str, cells: Sequence[object]) -> Markup:
         marked = (
-            Markup("<{0}{1}>{2}</{0}>").format(Markup(tag), Markup(" class=number" if k in numbers else ""), cell)
+            Markup("<{0}{1}>{2}</{0}>").format(
+                Markup(tag), Markup(" class=number" if k in numbers else ""), unbroken(cell)
+            )
             for k, cell in enumerate(cells)
         )
         return Markup("<tr>{}</tr>").format(Markup("").join(marked))
@@ -121,7 +124,14 @@ def _download(name: str, text: str) -> Markup:
 
 
 def heading(text: str) -> Markup:
-    return Markup("<h2>{}</h2>").format(text)
+    return Markup("<h2>{}</h2>").format(unbroken(text))
+
+
+def unbroken(text: object) -> object:
+    """Text in which no line ends between a number and its unit or its error; Markup is left as it is."""
+    if type(text) is not str:
+        return text
+    return _BEFORE_UNIT.sub("\N{NO-BREAK SPACE}", text).replace("\u00b1 ", "\u00b1\N{NO-BREAK SPACE}")
 
 
 def paragraph(text: str) -> Markup:

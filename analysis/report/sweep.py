@@ -25,13 +25,21 @@ def report_html(results: pa.Table, model: str, settings: Settings, units: Mappin
     """The page, of a table as `run_campaign` gives it; `units` of the model's variables."""
     failures = Counter(text for text in results["failure"].to_pylist() if text is not None)
     failed = sum(failures.values())
-    body = [_cloud(results, settings), heading("What was drawn"), _ranges(results, units)]
+    body = [
+        _cloud(results, settings),
+        heading("What was drawn at random, and what was read of it"),
+        _ranges(results, units),
+    ]
     if failures:
         body += [heading("What failed"), table(("why", "tests"), failures.most_common())]
     body += [paragraph("results.parquet has one row a test: parameters, features, and why a test failed.")]
     name = model.rsplit(".", 1)[-1]
     verdict = f"{len(results) - failed} of {len(results)} tests of {name} were simulated and analysed."
-    action = f"see below why {failed} are missing" if failed else "lacuna.Sweep in Python reads and draws the columns"
+    action = (
+        f"see below why {failed} are missing"
+        if failed
+        else "read results.parquet: a row for each test, with what was drawn for it and what was read of it"
+    )
     notes = [f"Model: {model}"]
     body_text = Markup("\n").join(body)
     return page(f"Sweep: {name}", body_text, verdict=verdict, action=action, inputs=[settings.path], notes=notes)

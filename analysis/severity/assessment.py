@@ -109,7 +109,7 @@ def sentence(settings: Settings, estimate, band: Band) -> str:
 
 
 def _write(done: Assessment, settings: Settings, folder: Path, features: Features, out: Path) -> None:
-    from lacuna.analysis.report.figures.assessment import draw
+    from lacuna.analysis.report.figures.assessment import CAPTION, draw
     from lacuna.analysis.report.figures.style import in_style
 
     content = asdict(done) | {"map": str(folder), "model": settings.model}
@@ -119,10 +119,10 @@ def _write(done: Assessment, settings: Settings, folder: Path, features: Feature
         )
         with in_style():
             figure = draw(settings, folder / "map.csv", features, done.estimate)
-        write_drawn(done, figure, scratch, [folder / "settings.toml", folder / "map.csv"])
+        write_drawn(done, figure, scratch, [folder / "settings.toml", folder / "map.csv"], CAPTION)
 
 
-def write_drawn(done: Any, figure: Figure, out: Path, inputs: list[Path]) -> None:
+def write_drawn(done: Any, figure: Figure, out: Path, inputs: list[Path], caption: str) -> None:
     """The figure of an assessment, and the page that shows it; `inputs` decided it, beside the recording."""
     from lacuna.analysis.report.assessment import report_html
     from lacuna.analysis.report.figures.data import drawn_data
@@ -132,5 +132,5 @@ def write_drawn(done: Any, figure: Figure, out: Path, inputs: list[Path]) -> Non
         for kind in ("svg", "png"):
             save(figure, out / f"assessment.{kind}", kind)
     svg = (out / "assessment.svg").read_text(encoding="utf-8")
-    page = report_html(done, svg, drawn_data(figure), inputs)
+    page = report_html(done, svg, drawn_data(figure), inputs, caption)
     (out / "report.html").write_text(page, encoding="utf-8")

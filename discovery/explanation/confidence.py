@@ -16,6 +16,7 @@ from lacuna.discovery.naming.name import Finding
 
 CERTAIN = 0.999  # the most that is ever claimed
 NONE = "none of these"
+OTHER = "that it is none of what was tried"  # in words
 
 
 def _by_identity(finding: Finding) -> dict[tuple[str, str], float]:
@@ -35,7 +36,7 @@ def odds(finding: Finding, share: float) -> str:
     own = confidence(finding, share)
     found = _by_identity(finding)
     rivals = [(found[i] * share, f"{i[0]} at {i[1]}") for i in found if i != finding.ranked.identity]
-    most, name = max([*rivals, (1.0 - share, NONE)])
+    most, name = max([*rivals, (1.0 - share, OTHER)])
     if own >= CERTAIN:
         return f"more than {CERTAIN / (1 - CERTAIN):.0f} to 1 against the next best, {name}"
     return f"{_to_one(own / max(most, 1 - CERTAIN))} against the next best, {name}"

@@ -6,7 +6,7 @@ from lacuna.discovery.efforts.places.opened import ALIKE
 from lacuna.discovery.efforts.places.place import adjoins
 from lacuna.discovery.experiment.separation import Rival, released
 from lacuna.discovery.explanation.explanation import Explanation
-from lacuna.discovery.explanation.wording import at
+from lacuna.discovery.explanation.wording import at, in_a_sentence
 from lacuna.discovery.fit.evidence import common_correlation
 from lacuna.discovery.law.law import law_at
 from lacuna.discovery.naming.comparison import Ranked, price
@@ -87,7 +87,7 @@ def named(ranked: Ranked) -> str:
     attachment = ranked.attachment
     if attachment.law is not None:
         return f"{law_at(attachment, ranked.fit.point)} {at(attachment.location)}"
-    return f"{attachment.effect.title[0].lower()}{attachment.effect.title[1:]} at {attachment.location}"
+    return f"{in_a_sentence(attachment.effect.title)} at {attachment.location}"
 
 
 def _tried(result: Explanation) -> list[Ranked]:

@@ -14,7 +14,7 @@ from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.experiment.files import described
 from lacuna.discovery.explanation.confidence import alternatives, certainty, confidence, explained, odds, tie
 from lacuna.discovery.explanation.explanation import Explanation
-from lacuna.discovery.explanation.wording import at, in_words
+from lacuna.discovery.explanation.wording import at, in_a_sentence, in_words
 from lacuna.discovery.fit.evidence import CLEARLY, whiteness
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free
@@ -250,10 +250,10 @@ def _fall(result: Explanation) -> str:
     noise of others hides it."""
     gains = {c: error / max(result.after.validate[c], 1e-12) for c, error in result.before.validate.items()}
     if gains[""] * CLEARLY > 1:
-        return f"on unseen recordings falls {gains['']:.2g} times"
+        return f"on unseen recordings falls by a factor of {gains['']:.2g}"
     column = max(result.floor, key=lambda c: gains[c])
-    by = f"{gains[column]:.2g} times" if gains[column] * CLEARLY > 1 else f"by {1 - 1 / gains[column]:.0%}"
-    return f"of {column} on unseen recordings falls {by}"
+    by = f"a factor of {gains[column]:.2g}" if gains[column] * CLEARLY > 1 else f"{1 - 1 / gains[column]:.0%}"
+    return f"of {column} on unseen recordings falls by {by}"
 
 
 def _moved(result: Explanation) -> str:
@@ -272,7 +272,7 @@ def _named(result: Explanation, finding: Finding) -> str:
         if added:
             where = f"added to {added}" if added == a.location else f"added to {added}, {where}"
         return f"a term {law_text(result, finding)} {where}{named}{_as_well(a)}{or_else}"
-    return f"{a.effect.title[0].lower()}{a.effect.title[1:]} at {a.location}{or_else}"
+    return f"{in_a_sentence(a.effect.title)} at {a.location}{or_else}"
 
 
 def _as_well(attachment: Attachment) -> str:

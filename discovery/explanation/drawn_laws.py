@@ -8,6 +8,7 @@ from typing import Any
 from matplotlib.figure import Figure
 import numpy as np
 
+from lacuna.analysis.report.figures.style import in_style
 from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.chains import Latent, Piece
@@ -16,6 +17,7 @@ from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.latent.smoother import courses
 from lacuna.discovery.efforts.latent.thinned import SAMPLES, thinned
 from lacuna.discovery.efforts.located import SIZES, TIMES, Locator
+from lacuna.discovery.experiment.picture import with_unit
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.explanation.figures import ABOVE
 from lacuna.discovery.explanation.wording import HALF_WIDTH
@@ -86,7 +88,7 @@ def _first_variable(result: Explanation, finding: Finding, recording: Recording)
     local, reading = attachment.signals[0]
     name = f"{attachment.component}.{local}"
     over = machine.trajectory(result.final.point, recording, [name])[name]
-    return {"variable": f"{reading} / {machine.model.variables[name].unit or '1'}", "over": over}
+    return {"variable": with_unit(reading, machine.model.variables[name].unit), "over": over}
 
 
 def _column(locator: Locator, finding: Finding) -> int | None:
@@ -139,21 +141,22 @@ def _likeliest(piece: Piece, column: int) -> Latent:
     return many.of([int(np.argmax(np.where(np.isfinite(log), log, -np.inf)))])
 
 
+@in_style()
 def _figure(drawn: list[Drawn]) -> Figure:
-    figure = Figure(figsize=(11, 0.3 + 2.9 * len(drawn)), layout="constrained")
+    figure = Figure(figsize=(9, 0.3 + 2.8 * len(drawn)), layout="constrained")
     axes = figure.subplots(len(drawn), 2, squeeze=False)
     for (left, right), law in zip(axes, drawn, strict=True):
         reach = HALF_WIDTH * law.error
         left.fill_between(law.time, law.effort - reach, law.effort + reach, color="0.6", alpha=0.3, lw=0)
         left.plot(law.time, law.effort, "0.6", lw=3, label="located, any course; band: 95 %")
         left.plot(law.time, law.law, "C0", lw=1.2, label="the law")
-        left.set(xlabel="time / s", ylabel=f"{law.title} / {law.unit}")
+        left.set(xlabel="time  (s)", ylabel=with_unit(law.title, law.unit))
         left.legend(**ABOVE, ncols=2)
         if law.over is None:
             right.set_axis_off()
             continue
         right.plot(law.over, law.effort, ".", ms=6, color="0.6", label="located")
         right.plot(law.over, law.law, "C0.", ms=1.5, label="the law")
-        right.set(xlabel=law.variable, ylabel=f"{law.title} / {law.unit}")
+        right.set(xlabel=law.variable, ylabel=with_unit(law.title, law.unit))
         right.legend(**ABOVE, ncols=2, markerscale=4)
     return figure

@@ -9,43 +9,47 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 import numpy as np
 
+from lacuna.analysis.report.figures.style import in_style
 from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.catalogue.places import Line, Shaft
-from lacuna.discovery.experiment.picture import POINTS
+from lacuna.discovery.experiment.picture import POINTS, with_unit
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.explanation.wording import HALF_WIDTH
 from lacuna.discovery.law.locate import Located
 from lacuna.discovery.naming.name import Finding
 
 SAMPLES = 3000  # of a cloud
-ABOVE = {"fontsize": "x-small", "loc": "lower left", "bbox_to_anchor": (0, 1)}  # off the curves
+ABOVE = {"fontsize": 8, "loc": "lower right", "bbox_to_anchor": (1, 1), "frameon": False}  # off curves and exponents
 
 Curve = tuple[str, str, Mapping[str, np.ndarray]]  # label, colour, measured minus simulated of each column
 
 
+@in_style()
 def courses(case: Case, recording: Recording, curves: list[Curve], noise: Mapping[str, float]) -> Figure:
     """A recording and simulations of it, a row for each output; at the right what is left, over the band of noise."""
-    figure = Figure(figsize=(11, 0.6 + 2.0 * len(case.outputs)), layout="constrained")
+    figure = Figure(figsize=(9, 0.6 + 1.7 * len(case.outputs)), layout="constrained")
     axes = figure.subplots(len(case.outputs), 2, sharex=True, squeeze=False)
     for (ax, beside), signal in zip(axes, case.outputs, strict=True):
         own = np.flatnonzero(np.isfinite(recording.columns[signal.column]))
         rows = own[:: max(1, len(own) // POINTS)]
         time, measured = recording.time[rows], recording.columns[signal.column][rows]
-        ax.plot(time, measured, "0.6", lw=1, label="measured")
+        ax.plot(time, measured, "0.6", lw=2.5, label="measured")
         for label, colour, residual in curves:
             ax.plot(time, measured - residual[signal.column][rows], colour, lw=1, label=label)
             beside.plot(time, residual[signal.column][rows], colour, lw=0.7)
         if signal.column in noise:
             reach = HALF_WIDTH * noise[signal.column]
             beside.axhspan(-reach, reach, color="0.85", zorder=0, label="noise, 95 %")
-        ax.set_ylabel(f"{signal.column} / {signal.model_unit}")
-    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper left", ncols=4, fontsize="small")
-    axes[0, 1].set_title("measured minus simulated; grey: noise, 95 %", fontsize="small")
+        ax.set_ylabel(with_unit(signal.column, signal.model_unit))
+        beside.set_ylabel(with_unit("", signal.model_unit))
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper left", ncols=4, fontsize=8, frameon=False)
+    axes[0, 1].set_title("measured minus simulated; grey: noise, 95 %", fontsize=8, fontweight="normal")
     for ax in axes[-1]:
-        ax.set_xlabel("time / s")
+        ax.set_xlabel("time  (s)")
     return figure
 
 
+@in_style()
 def missing(result: Explanation) -> Figure | None:
     """What is missing at the place that explains most, in time and over what it depends on, and the law that was found
     for it there; None where no effort was located."""
@@ -53,7 +57,7 @@ def missing(result: Explanation) -> Figure | None:
     place = result.effort or (located.best if located else None)
     if place is None:
         return None
-    figure = Figure(figsize=(11, 3.2), layout="constrained")
+    figure = Figure(figsize=(9, 3.1), layout="constrained")
     left, right = figure.subplots(1, 2)
     name = max(place.effort, key=lambda n: float(np.ptp(place.effort[n][1])))
     time, effort = place.effort[name]
@@ -63,10 +67,10 @@ def missing(result: Explanation) -> Figure | None:
             time, *(effort + s * HALF_WIDTH * place.error[name] for s in (-1, 1)), color="C7", alpha=0.25, lw=0
         )
     _law(left, result, finding, name)
-    left.set(xlabel="time / s", ylabel=f"missing {place.kind} at {place.location} / {place.unit}")
+    left.set(xlabel="time  (s)", ylabel=with_unit(f"missing {place.kind} at {place.location}", place.unit))
     left.legend(**ABOVE)
     _regime(right, located)
-    right.set_ylabel(f"{located.best.kind} at {located.best.location} / {located.best.unit}")
+    right.set_ylabel(with_unit(f"{located.best.kind} at {located.best.location}", located.best.unit))
     return figure
 
 
@@ -108,4 +112,4 @@ def _regime(ax: Axes, located: Located) -> None:
     mean = found.means if found.kind == "value" else np.interp(np.sign(over), found.centres, found.means)
     ax.plot(over, mean, "C0-", lw=2, label="mean")
     ax.legend(**ABOVE)
-    ax.set_xlabel(f"{found.variable} / {found.unit}")
+    ax.set_xlabel(with_unit(found.variable, found.unit))

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 import numpy as np
 
 from lacuna.analysis.report.figures.data import drawn_data
-from lacuna.analysis.report.page import code, page, table
+from lacuna.analysis.report.page import code, page, table, unbroken
 from lacuna.analysis.report.page import figure as figure_of
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.efforts.places.sites import MOST
@@ -56,9 +56,15 @@ def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
         parts += _findings(result) + _located(result) + _overlays(result) + _quality(result)
         parts += _parameters(result) + _rivals(result) + _left(result)
     if amended is not None:
-        parts += ["<h2>The amended model</h2>", code(amended.read_text(encoding="utf-8"), "amended model")]
+        parts += [f"<h2>{_amended_as(result)}</h2>", code(amended.read_text(encoding="utf-8"), "amended model")]
     verdict = f"{sentence(result)} {certainty(result)}"
     return _page(parts, result.case.title, folder, verdict, action(result, amended), result.case.files)
+
+
+def _amended_as(result: Explanation) -> str:
+    if result.verdict == "undetermined":
+        return "A model that would explain them, which is not claimed"
+    return "The amended model" if result.findings else "The model with its parameters as fitted"
 
 
 def _page(parts: list[str], title: str, folder: Path, verdict: str, action: str, inputs: Sequence[Path]) -> Path:
@@ -67,8 +73,8 @@ def _page(parts: list[str], title: str, folder: Path, verdict: str, action: str,
     return path
 
 
-def _table(header: list[str], rows: list[list[object]]) -> str:
-    return table(header, ([f"{c:.4g}" if isinstance(c, float) else str(c) for c in row] for row in rows))
+def _table(header: list[str], rows: list[list[object]], numbers: range = range(1, 99)) -> str:
+    return table(header, ([f"{c:.4g}" if isinstance(c, float) else str(c) for c in row] for row in rows), numbers)
 
 
 def _svg(drawn: Figure, title: str) -> str:
@@ -147,7 +153,7 @@ def _located(result: Explanation) -> list[str]:
     located, drawn = result.located, missing(result)
     if drawn is None:
         return []
-    rows = [[p.location, p.kind, f"{p.explained:.0%}"] for p in located.places]
+    rows = [[p.location, p.kind, f"{100 * p.explained:.0f} %"] for p in located.places]
     parts = ["<h2>Where something is missing</h2>"]
     note = (
         "<p>At each place the smoothest effort over time that explains the recordings, a few dozen values of it: fast "
@@ -155,7 +161,7 @@ def _located(result: Explanation) -> list[str]:
         "the law, where there is one; right and in the table: by those fitted without it.</p>"
     )
     parts += [_svg(drawn, "What is missing, and the law for it"), note]
-    return [*parts, _table(["place", "what", "misfit that it could explain"], rows)]
+    return [*parts, _table(["place", "what", "misfit that it could explain"], rows, range(2, 3))]
 
 
 def _anywhere(result: Explanation) -> list[str]:
@@ -164,8 +170,8 @@ def _anywhere(result: Explanation) -> list[str]:
     if drawn := laws_over_efforts(result):
         parts += [_svg(drawn, "What is missing, and the law for it"), _ANY_COURSE]
     sites = result.opened.sites[:MOST]
-    rows = [[s.location, s.place.sites[0].stands if s.place else _SENSOR, f"{s.explains:.0%}"] for s in sites]
-    parts.append(_table(["place", "what acts there", "misfit that it could explain"], rows))
+    rows = [[s.location, s.place.sites[0].stands if s.place else _SENSOR, f"{100 * s.explains:.0f} %"] for s in sites]
+    parts.append(_table(["place", "what acts there", "misfit that it could explain"], rows, range(2, 3)))
     parts.append(_PLACES.format(more=len(result.opened.sites) - len(sites)))
     if closed := result.opened.closed:
         rows = "".join(f"<li>{escape(label)}: {escape(why)}</li>" for label, why in closed)
@@ -175,21 +181,27 @@ def _anywhere(result: Explanation) -> list[str]:
 
 
 def _findings(result: Explanation) -> list[str]:
-    parts = []
+    parts, claimed = [], result.verdict != "undetermined"
     for finding, said in zip(result.findings, build(result, None)["findings"], strict=True):
         values = "; ".join(
             f"{n} = {with_error(p['value'], p['std'])} {p['unit'] if p['unit'] != '1' else ''}".rstrip()
             for n, p in said["parameters"].items()
         )
+        place = f"({escape(said['effect'])}) at {escape(said['location'])}"
         title = finding.ranked.attachment.effect.title
         title = f"{title}, {in_words(said['form'])}" if "form" in said else title
         equation = said.get("law") or equation_of(result, finding)
         parts.append(
-            f"<li><b>{escape(title)}</b> ({escape(said['effect'])}) at {escape(said['location'])}: {escape(values)}. "
-            f"{escape(said['odds'][0].upper() + said['odds'][1:])}. Seen as: {escape(said['where']['text'])}."
+            f"<li><b>{escape(title)}</b> {place}: {escape(unbroken(values))}. "
+            f"{_sure(said['odds']) if claimed else ''}Seen as: {escape(said['where']['text'])}."
             f"{code(equation, f'equation of {title}') if equation else ''}</li>"
         )
-    return ["<h2>What was left out</h2>", f"<ol>{''.join(parts)}</ol>"] if parts else []
+    head = "What was left out" if claimed else "What would explain the recordings, and is not claimed"
+    return [f"<h2>{head}</h2>", f"<ol>{''.join(parts)}</ol>"] if parts else []
+
+
+def _sure(odds: str) -> str:
+    return f"{escape(odds[0].upper() + odds[1:])}. "
 
 
 def _rivals(result: Explanation) -> list[str]:
@@ -208,7 +220,7 @@ def _round(naming: Naming, k: int) -> list[str]:
     parts += [_table(header, rows)] if rows else []
     tried = {r.attachment.label for r in naming.ranked}
     others = [(label, share) for label, share in naming.screened if label not in tried][:12]
-    rest = ", ".join(f"{label} ({share:.0%})" for label, share in others)
+    rest = ", ".join(f"{label} ({100 * share:.0f} %)" for label, share in others)
     if rest:
         parts.append(f"<p>Not fitted, for they could explain little (share of the misfit): {escape(rest)}.</p>")
     if naming.unneeded:
@@ -228,7 +240,7 @@ def _failures(naming: Naming) -> list[str]:
 def _leaves(fit: Fit) -> str:
     """The signal that a hypothesis explains worst; a finding that lost leaves more, or needs more parameters."""
     worst = max(fit.level, key=lambda c: fit.level[c])
-    return f"{fit.level[worst]:.2f} x noise in {worst}"
+    return f"{fit.level[worst]:.2f} \u00d7 noise in {worst}"
 
 
 def _parameters(result: Explanation) -> list[str]:
@@ -238,7 +250,7 @@ def _parameters(result: Explanation) -> list[str]:
         before = rounded(refitted[name], p["std"])
         rows.append([name, p["believed"], before, with_error(p["value"], p["std"]), p["unit"], flag])
     header = ["parameter", "believed", "fitted to the believed model", "now, with its 95 % interval", "unit", ""]
-    return ["<h2>Parameters</h2>", _table(header, rows)]
+    return ["<h2>Parameters</h2>", _table(header, rows, range(1, 4))]
 
 
 def _left(result: Explanation) -> list[str]:

@@ -45,7 +45,16 @@ def action(result: Explanation, amended: Path | None) -> str:
         return f"go on with {amended.name}, which holds it, and look for its cause in the machine"
     if result.verdict == "parameters" and amended is not None:
         return f"go on with {amended.name}, which holds the fitted values, or measure those parameters"
-    return "nothing: the model can be used as it is" if result.verdict == "consistent" else ""
+    if result.verdict != "consistent":
+        return ""
+    fitted = f"; {amended.name} has its parameters as fitted" if amended is not None else ""
+    return f"nothing: the model can be used as it is{fitted}"
+
+
+def in_a_sentence(title: str) -> str:
+    """The title of an effect inside a sentence: what follows a colon in it is told in brackets."""
+    name, _, more = title.partition(": ")
+    return f"{name[0].lower()}{name[1:]}{f' ({more})' if more else ''}"
 
 
 def in_words(form: str) -> str:

@@ -60,6 +60,17 @@ def test_how_near_variable_steps_are_comes_first_and_a_run_that_failed_is_said(s
     assert "1 run failed: the tables say why" in findings([fallen])
 
 
+def test_the_worst_signal_is_named_with_its_unit_and_its_scenario(study: Study) -> None:
+    counted = [s for r in study.lanes if r.lane.rtol and r.lane.rtol <= 1e-6 for s in r.signals]
+    worst = max(counted, key=lambda s: s.relative)
+    assert f"relative ({worst.name})" in findings([study])[0]
+    calm = replace(study, scenario=replace(study.scenario, title="Calm"), lanes=[
+        replace(r, signals=[replace(s, maximum=0.01 * s.maximum) for s in r.signals]) for r in study.lanes
+    ])  # fmt: skip
+    assert f"({worst.name} in Servo; {0.01 * worst.relative:.1e} in all others)" in findings([calm, study])[0]
+    assert {s.unit for s in counted} >= {"A", "rad/s"}
+
+
 def test_a_run_on_another_course_is_starred(study: Study) -> None:
     lanes = [
         replace(lane, events=replace(lane.events, unmatched=int(lane.lane.family == "euler"))) for lane in study.lanes

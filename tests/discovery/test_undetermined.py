@@ -11,6 +11,7 @@ from lacuna.discovery.case.cases import load
 from lacuna.discovery.explain import explain
 from lacuna.discovery.explanation.confidence import tie
 from lacuna.discovery.explanation.input_error import offset_instead
+from lacuna.discovery.explanation.report import write
 
 from .recorded import TANK, concealed, record, truth
 
@@ -40,6 +41,9 @@ def test_a_constant_loss_is_not_told_from_an_offset_of_the_inflow(tmp_path: Path
     assert signal.column == "q" and offset == pytest.approx(2e-5, rel=0.05)
     assert {t["effect"] for t in tie(found.findings[0])} >= {"sensor.offset"}
     assert "offset" in found.reason and "q" in found.experiment
+    page = write(found, tmp_path, None).read_text(encoding="utf-8")
+    assert "No explanation is claimed" in page and "and is not claimed</h2>" in page
+    assert "What was left out" not in page and " to 1 against" not in page
 
 
 def test_a_loss_that_is_none_at_rest_is_told(tmp_path: Path) -> None:

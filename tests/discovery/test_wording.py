@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from lacuna.discovery.explanation.wording import HALF_WIDTH, rounded, with_error
+from lacuna.discovery.explanation.wording import HALF_WIDTH, in_a_sentence, rounded, with_error
 
 
 @pytest.mark.parametrize(
@@ -20,3 +20,10 @@ from lacuna.discovery.explanation.wording import HALF_WIDTH, rounded, with_error
 def test_a_value_with_its_interval_and_alone(value: float, std: float | None, whole: str, alone: str) -> None:
     assert with_error(value, std) == whole
     assert rounded(value, std) == alone
+
+
+def test_a_title_with_a_colon_is_told_in_brackets_inside_a_sentence() -> None:
+    assert (
+        in_a_sentence("Dry friction: constant level, sticks at rest") == "dry friction (constant level, sticks at rest)"
+    )
+    assert in_a_sentence("Backlash") == "backlash"

@@ -9,10 +9,12 @@ import re
 import shutil
 from typing import Any
 
+from markupsafe import Markup
 import pytest
 
 import lacuna
 from lacuna.analysis.map.maps import build_map
+from lacuna.analysis.report.page import page, unbroken
 from tests.analysis.plants import ReferencePlant, paper_settings
 from tests.analysis.reference import simulate
 from tests.analysis.test_assessment import COLUMNS, write
@@ -27,6 +29,8 @@ axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-p
 pytestmark = pytest.mark.xdist_group("pages")  # they are made once
 
 WIDTHS = (380, 820, 1600)
+BROKEN = """e => { const text = document.createRange(); text.selectNodeContents(e);
+  return !e.textContent.includes(" ") && text.getClientRects().length > 1; }"""  # one number on two lines
 VANISHED = 1  # px: rounding of a length
 HISTORY = "actuator,cycles,severity,low,high,event\n" + "".join(
     f"A1,{k},{0.02 + 4e-5 * k},{0.01 + 4e-5 * k},{0.03 + 4e-5 * k},\nA<2>,{k},0.02,0.01,0.03,\n"
@@ -114,6 +118,11 @@ def test_on_paper_no_table_is_cut(pages: dict[str, Path], browser: Any, name: st
     wide = "e => e.getBoundingClientRect().right > innerWidth + 1"
     cut = f"[...document.querySelectorAll('table, figure, pre')].filter({wide})"
     assert page.evaluate(f"{cut}.map(e => e.outerHTML.slice(0, 200))") == []
+    broken = f"[...document.querySelectorAll('td.number')].filter({BROKEN}).map(e => e.textContent)"
+    assert page.evaluate(broken) == []
+    sizes = "['h2', 'p:not([class])', 'td'].map(s => document.querySelector('main ' + s)).filter(e => e)"
+    found = page.evaluate(f"{sizes}.map(e => parseFloat(getComputedStyle(e).fontSize))")
+    assert max(found) < 1.5 * min(found)  # headings and tables shrink with the text
     assert page.pdf(format="A4").startswith(b"%PDF")
     context.close()
 
@@ -133,6 +142,11 @@ def test_a_page_says_nothing_of_the_instant_or_the_place_where_it_was_made(pages
     text = pages[name].read_text(encoding="utf-8")
     assert str(pages[name].parents[1]) not in text
     assert not re.search(r"\b20\d\d-\d\d-\d\d\b", text)
+
+
+def test_a_page_bears_the_date_that_it_is_given(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1796083200")
+    assert ", 2026-12-01 00:00 UTC. Made by" in page("Title", Markup(""))
 
 
 def test_a_figure_is_enlarged_by_dragging_and_whole_again_by_its_button(pages: dict[str, Path], browser: Any) -> None:
@@ -168,6 +182,13 @@ def test_no_word_of_the_wall_lies_on_another(pages: dict[str, Path], browser: An
     page.close()
 
 
+def test_no_line_ends_between_a_number_and_its_unit_or_error() -> None:
+    for text in ("22.2 % sure", "693.3 mA", "2e-05 m3/s", "1.2 kg.m2", "0.1 s", "3 \u00b1 0.1 N.m"):
+        assert " " not in unbroken(text.partition(" sure")[0]), text
+    assert unbroken("2 of 4 actuators, 3 steps") == "2 of 4 actuators, 3 steps"
+    assert unbroken(Markup("5 %")) == "5 %" and unbroken(7) == 7
+
+
 def test_equal_inputs_give_equal_bytes(pages: dict[str, Path], map_folder: Path, tmp_path: Path) -> None:
     root = pages["map"].parents[1]
     build_map(ReferencePlant(), paper_settings(tmp_path, *COARSE), tmp_path / "map", jobs=1)
@@ -194,7 +215,11 @@ def test_what_is_read_of_a_forecast_at_a_glance(pages: dict[str, Path]) -> None:
     text = pages["forecast"].read_text(encoding="utf-8")
     body = re.sub(r"<svg.*?</svg>|base64,[^\"]*", "", text[text.index("<main>") :], flags=re.DOTALL)
     assert re.search("\\d\N{NO-BREAK SPACE}\\d{3} cycles", body) and not re.search(r"\d \d{3}\b", body)
-    assert "<td class=number>reached</td>" in body and "cycles until it" in body
+    assert (
+        "<td class=number>reached</td>" in body
+        and "cycles until it" in body
+        and "80\N{NO-BREAK SPACE}% sure: from" in body
+    )
     assert "severity  (%)" in text and "orange from 11 %" in text and "A1 is the first to be removed" in body
     fleet = pages["fleet"].read_text(encoding="utf-8")
     assert re.search(r">A1, 14 %<", fleet) and "history.csv: <code>" in fleet and "history.csv: <code>" in text

@@ -7,7 +7,7 @@ import numpy as np
 
 from lacuna.analysis.prognosis.forecast import Forecast
 from lacuna.analysis.prognosis.verdict import FORECAST
-from lacuna.analysis.report.figures.style import BAND_FILL, BAND_INK, INK, MUTED
+from lacuna.analysis.report.figures.style import BAND_FILL, BAND_INK, INK, MUTED, READABLE
 
 FAN = ((0.025, 0.975, "95 %", "#c9d8e8"), (0.1, 0.9, "80 %", "#8fb1d3"))
 LEVELS = 24  # severities at which the fan is drawn
@@ -49,12 +49,12 @@ def draw(axes: Axes, f: Forecast, smoothed: tuple[np.ndarray, np.ndarray, np.nda
         axes.set_xlim(right=max(np.nanmax(at), f.at * 1.02))
         if f.advised is not None:
             axes.axvline(f.advised, color="#b3261e", linewidth=1.2)
-            axes.annotate("last advised test", (f.advised, 0.03 * top), xytext=(-4, 0), textcoords="offset points",
-                          rotation=90, va="bottom", ha="right", fontsize=8, color="#b3261e")  # fmt: skip
+            axes.annotate("last advised test", (f.advised, 0.03 * top), xytext=(4, 0), textcoords="offset points",
+                          rotation=90, va="bottom", ha="left", fontsize=8, color="#b3261e")  # fmt: skip
     axes.axvline(f.at, color=MUTED, linewidth=0.8)
     axes.set_xlabel(h.unit)
     axes.set_ylabel(f.limits.unit if np.isinf(f.limits.last) else f"severity  ({f.limits.unit or '1'})")
-    axes.legend(loc="upper left", fontsize=8, frameon=False)
+    axes.legend(loc="upper left", fontsize=8, **READABLE)
 
 
 def _bands(axes: Axes, f: Forecast) -> float:

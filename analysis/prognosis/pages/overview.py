@@ -26,12 +26,17 @@ _COUNTS = Markup("""<p class="counts"><span><b>{total}</b> actuators</span> <spa
 <span><b>{steady}</b> steady</span></p>""")
 _ABOVE = Markup(
     "<p>{shown} at greatest risk, with their severity: use that remains to {limit} (median, 80 % and 95 % intervals), "
-    "and the last advised test (red). An arrow at the right: it lies beyond the axis.</p>"
+    "and the last advised test (red dot; at zero: remove now). An arrow at the right: the median lies beyond the axis; "
+    "a bar that ends there goes on.</p>"
 )
 
 
-def overview(table: pa.Table, limits: Mapping[str, Limits], title: str = "Fleet", inputs: Sequence[Path] = ()) -> str:
-    """The page, of a table as `run_fleet` gives it; `limits` by fault, `inputs` the files that were read."""
+def overview(
+    table: pa.Table, limits: Mapping[str, Limits], title: str = "Fleet", inputs: Sequence[Path] = (),
+    risk: float | None = None,
+) -> str:  # fmt: skip
+    """The page, of a table as `run_fleet` gives it; `limits` by fault, `inputs` the files that were read, `risk`
+    that of the last limit which is taken."""
     rows = table.slice(0, SHOWN).to_pylist()
     first = [r for r in rows if r["verdict"] == "forecast"]
     verdicts = table["verdict"].to_pylist()
@@ -40,7 +45,7 @@ def overview(table: pa.Table, limits: Mapping[str, Limits], title: str = "Fleet"
     advised = [Advice(whom(a, fault), last, at, unit) for a, fault, last, at, unit, v in columns if v == "forecast"]
     warned = zip(*(table[name].to_pylist() for name in ("actuator", "fault", "warnings")), strict=True)
     beyond = [whom(a, fault) for a, fault, warnings in warned if BEYOND in (warnings or "")]
-    verdict, action = removals(advised, len(table), beyond)
+    verdict, action = removals(advised, len(table), beyond, next(iter(limits.values())).names[-1], risk)
     counts = _COUNTS.format(
         total=len(table), now=verdict.split(" ", 1)[0], forecast=verdicts.count("forecast"),
         early=verdicts.count("too_early"), steady=verdicts.count("steady"),

@@ -36,6 +36,11 @@ from lacuna.drawn import save
 from lacuna.written import whole_files
 
 MOST_LETTERS = 50  # of a file's name: file systems allow some 250 bytes, and a letter may take four of UTF-8's
+_TRACKED = "Points: the severity that each test showed, with its 95 % interval. Line: the severity tracked over them."
+_FAN = (
+    f"{_TRACKED} Fan: when each severity will be reached; the grey line is the last test, the red one the last that is "
+    "advised."
+)
 DRAWN = 40  # actuators that get a figure; of more, those at greatest risk
 
 
@@ -70,7 +75,7 @@ def publish(
             for f in said if f.verdict == FORECAST
         ]  # fmt: skip
         beyond = [whom(f.history.actuator, f.history.fault) for f in said if BEYOND in f.warnings]
-        verdict, action = removals(advised, len(said), beyond)
+        verdict, action = removals(advised, len(said), beyond, said[0].limits.names[-1] if said else "", risk)
         counted = f"{counted_verdicts(said)} {shown}".strip()
         whole = page(
             "Flights that remain", Markup("").join(parts), verdict=f"{verdict} {counted}", action=action,
@@ -96,14 +101,14 @@ def _part(f: Forecast, svg: str, data: tuple[str, str], risk: float) -> Markup:
     parts = [
         heading(said),
         *(Markup("<p class=warn>{}</p>").format(w) for w in f.warnings),
-        figure(svg, said, data=data),
+        figure(svg, said, _FAN if f.verdict == FORECAST else _TRACKED, data),
     ]
     if f.verdict == FORECAST:
         unit = f.history.unit
-        header = [f"limit, {unit} until it", "97.5 % later than", "90 %", "median", "10 %", "2.5 %"]
+        header = [f"{unit} until it", "95 % sure: from", "80 % sure: from", "median", "80 % sure: to", "95 % sure: to"]
         rows = [[name, *_cells(row)] for name, row in zip(f.limits.names, f.quantiles, strict=True)]
         laws = ", ".join(f"{n} {100 * w:.0f} %" for n, w in list(f.weights.items())[:3])
-        parts += [table(header, rows), Markup("<p><small>Laws: {}.</small></p>").format(laws)]
+        parts += [table(header, rows), Markup("<p><small>Laws of growth, by probability: {}.</small></p>").format(laws)]
     return Markup("").join(parts)
 
 

@@ -12,7 +12,7 @@ from lacuna.analysis.prognosis.forecast import Forecast
 from lacuna.analysis.prognosis.verdict import FORECAST, STEADY
 
 FORMAT = 1  # of forecast.json
-NAMED = 8  # parts that an action names
+NAMED = 24  # parts that an action names: who is told to remove must not look them up
 
 
 def sentence(f: Forecast, risk: float) -> str:
@@ -50,11 +50,16 @@ def whom(actuator: str, fault: str) -> str:
     return f"{actuator} ({fault})" if fault else actuator
 
 
-def removals(advised: Sequence[Advice], count: int, beyond: Sequence[str] = ()) -> tuple[str, str]:
+def removals(
+    advised: Sequence[Advice], count: int, beyond: Sequence[str] = (), limit: str = "", risk: float | None = None
+) -> tuple[str, str]:
     """(verdict, next action) over `count` parts: `advised` are those with a forecast, `beyond` those that read beyond
-    the last limit and cannot be forecast."""
+    the last limit and cannot be forecast; `limit` is the name of that limit, `risk` what is taken of it."""
     now = [a.who for a in advised if a.advised is not None and a.advised <= a.at]
-    verdict = f"{len(now)} of {count} {'actuator is' if count == 1 else 'actuators are'} to be removed now."
+    is_or_are = f"{'actuator' if count == 1 else 'actuators'} {'is' if count == 1 or len(now) == 1 else 'are'}"
+    whose = "its" if len(now) == 1 else "their"
+    why = f": at {whose} next test the risk of {limit} is above {100 * risk:g} %" if limit and risk else ""
+    verdict = f"{len(now)} of {count} {is_or_are} to be removed now{why if now else ''}."
     due = [f"remove {_some(now)}"] * bool(now)
     due += [f"repeat the test of {_some(beyond)}, or remove: it reads beyond the last limit"] * bool(beyond)
     if due:
@@ -76,8 +81,10 @@ def _some(names: Sequence[str]) -> str:
 
 
 def use(value: float) -> str:
-    """Three digits; what lies beyond the horizon is said so."""
-    return "beyond the horizon" if not math.isfinite(value) else _grouped(value, 3)
+    """Three digits, and no parts of a cycle from ten of them on; what lies beyond the horizon is said so."""
+    if not math.isfinite(value):
+        return "beyond the horizon"
+    return _grouped(round(value) if abs(value) >= 10 else value, 3)
 
 
 def _grouped(value: float, digits: int) -> str:

@@ -13,6 +13,7 @@ from lacuna.analysis.report.figures.style import (
     MUTED,
     PHASE_STYLES,
     PHASES,
+    READABLE,
     band_ink,
     label_line_end,
     new_figure,
@@ -23,6 +24,11 @@ from lacuna.analysis.report.figures.style import (
 from lacuna.analysis.settings import Settings
 from lacuna.analysis.severity.severity_table import Estimate
 from lacuna.analysis.spectra.chain import Features
+
+CAPTION = (
+    "Curves: the map. Dots: the measured RMS of each phase, at the severity that they show together: the black line, "
+    "with its 95 % interval in grey."
+)
 
 
 def draw(settings: Settings, map_csv: Path, features: Features, estimate: Estimate) -> Figure:
@@ -51,7 +57,7 @@ def draw(settings: Settings, map_csv: Path, features: Features, estimate: Estima
     axes.plot([], [], "o", color=INK, label="measured phase RMS, at the estimated severity")
     severity_axis(axes, settings)
     axes.set_ylabel("RMS of the phase currents  (mA)")
-    axes.legend(frameon=False, loc="upper left")
+    axes.legend(loc="upper left", **READABLE)
     band = settings.bands[estimate.band]
     axes.set_title(
         f"{found:.1f} {settings.fault.unit}  ({low:.1f} to {high:.1f})  {band.name}", color=band_ink(band), pad=20

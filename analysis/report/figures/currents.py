@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 import numpy as np
 
 from lacuna.analysis.map.rows import Row
-from lacuna.analysis.report.figures.style import MUTED, PHASE_STYLES, PHASES, landmarks, new_figure, phase_name
+from lacuna.analysis.report.figures.style import INK, MUTED, PHASE_STYLES, PHASES, landmarks, new_figure, phase_name
 from lacuna.analysis.settings import Settings
 
 TITLE = "Phase currents and rotor position"
@@ -52,7 +52,9 @@ def _draw_orbit(axes: Axes, settings: Settings, row: Row, limit: float) -> None:
     axes.plot(ring, np.zeros_like(ring), ":", color=MUTED, linewidth=1.2)
     step = 10.0 ** np.floor(np.log10(limit))
     levels = step * np.arange(-np.floor(limit / step), np.floor(limit / step) + 1)
-    axes.set_rticks(levels, [f"{level:+g} A" if level else "0" for level in levels], fontsize=7, color=MUTED)
+    axes.set_rticks(levels, [f"{level:+g} A" if level else "0" for level in levels], fontsize=8, color=INK)
+    for label in axes.get_yticklabels():
+        label.set_bbox({"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 0.6})
     axes.set_rlabel_position(105)
     axes.set_xticks(np.radians(np.arange(0, 360, 60)))
     weak = settings.raw["actuator"].get("strongest_angle")

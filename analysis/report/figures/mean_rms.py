@@ -21,7 +21,7 @@ from lacuna.analysis.settings import Band, Settings
 TITLE = "Mean RMS and operating bands"
 CAPTION = (
     "As figure 5 of the paper: the map that turns a measured mean RMS into a severity. In each band: the rise from its "
-    "first to its last severity here, and as published where it was. Band edges as published leave the white gaps."
+    "first to its last severity here, and as published where it was. Band edges as published leave the gaps."
 )
 
 

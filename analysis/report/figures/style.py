@@ -17,6 +17,7 @@ from lacuna.analysis.settings import Band, Settings
 # Okabe and Ito's palette, for phases a, b, c.
 PHASES = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00"]
 PHASE_STYLES = ["-", "--", "-.", ":", "-", "--"]
+READABLE = {"framealpha": 0.85, "edgecolor": "none", "facecolor": "white"}  # a legend over curves and bands
 INK, MUTED, GRID = "#222222", "#666666", "#dddddd"
 
 # The paper's names. Fill behind curves, and a darker shade of it for text and markers.

@@ -67,7 +67,7 @@ def assess_both(
 
 def _write(done: JointAssessment, estimator: JointEstimator, folder: Path, out: Path) -> None:
     from lacuna.analysis.report.figures.style import in_style
-    from lacuna.analysis.severity.combined.figures import draw_estimate
+    from lacuna.analysis.severity.combined.figures import CAPTION, draw_estimate
 
     content = asdict(done) | {"map": str(folder), "model": estimator.grid.settings.model}
     del content["estimate"]["density"]
@@ -77,4 +77,4 @@ def _write(done: JointAssessment, estimator: JointEstimator, folder: Path, out: 
         (scratch / "assessment.json").write_text(text + "\n", encoding="utf-8")
         with in_style():
             figure = draw_estimate(estimator, done.estimate)
-        write_drawn(done, figure, scratch, [folder / "settings.toml"])
+        write_drawn(done, figure, scratch, [folder / "settings.toml"], CAPTION)

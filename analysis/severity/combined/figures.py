@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from lacuna.analysis.report.figures.style import INK, new_figure, severity_axis, shade_bands
+from lacuna.analysis.report.figures.style import INK, READABLE, new_figure, severity_axis, shade_bands
 from lacuna.analysis.severity.combined.estimate import JointEstimate, JointEstimator
 from lacuna.analysis.severity.combined.study import Study
+
+CAPTION = (
+    "Both severities that the recording shows, and where it puts them together: the coloured bands are the first's."
+)
 
 
 def draw_limits(study: Study) -> Figure:
@@ -55,5 +59,5 @@ def draw_estimate(estimator: JointEstimator, estimate: JointEstimate) -> Figure:
     severity_axis(axes, settings)
     axes.set_ylim(y[0], y[-1])
     axes.set_ylabel(f"{other.name}  ({other.unit})")
-    axes.legend(frameon=False, loc="upper left")
+    axes.legend(loc="upper left", **READABLE)
     return figure

@@ -11,7 +11,6 @@ model AveragedDrive "Current control with a continuous duty, averaged over the m
 protected
   Types.Current error "Current error";
   Types.Voltage v_free "Voltage command before the limit";
-  Types.Voltage beyond "How far it is beyond the limit towards which the error drives it";
 equation
   commutation.dir = 1;
   connect(commutation.leg, bridge.leg);
@@ -24,8 +23,9 @@ equation
   error = i_set - i_pair;
   v_free = Kp*error + x;
   duty = if v_free > V then 1 elseif v_free < -V then -1 else v_free/V;
-  beyond = noEvent(if error > 0 then v_free else -v_free) - V;
-  der(x) = Ki*error*max(0, min(1, 1 - beyond/(onset*V)));
+  // How far the command is beyond the limit towards which the error drives it is no variable: at rest rounding gives
+  // the error's sign, which the product makes nothing of.
+  der(x) = Ki*error*max(0, min(1, 1 - (noEvent(if error > 0 then v_free else -v_free) - V)/(onset*V)));
   annotation(Documentation(info="<html>
 <p>Proportional-integral control of the pair's current; the duty saturates at full voltage, and the integral is held
 while it would drive further into saturation. The duty is computed for the nominal bus voltage, as a drive without a

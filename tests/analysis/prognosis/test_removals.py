@@ -32,6 +32,13 @@ def test_the_part_that_is_due_is_named(advised: list[Advice], verdict: str, acti
     assert said[0].startswith(verdict) and action in said[1]
 
 
+def test_the_verdict_says_at_what_risk() -> None:
+    assert removals([advice("A", 50)], 2, limit="violet", risk=1e-3)[0] == (
+        "1 of 2 actuators is to be removed now: at its next test the risk of violet is above 0.1 %."
+    )
+    assert removals([advice("A", 900)], 2, limit="violet", risk=1e-3)[0].endswith("to be removed now.")
+
+
 def test_a_long_list_is_counted() -> None:
     _, action = removals([advice(f"A{k}", 0) for k in range(NAMED + 5)], 40)
     assert action.endswith("and 5 more") and "A0, A1" in action
