@@ -17,7 +17,7 @@ from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.trace import left
-from lacuna.discovery.efforts.instruments import colour_of, only_instruments
+from lacuna.discovery.efforts.instruments import colour_of, is_colour
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.law_at import TRIED, LawsAt
 from lacuna.discovery.efforts.located import Locator, Site
@@ -129,7 +129,7 @@ def _enough(found: Found, begun: list[LawsAt], base: Fit) -> bool:
 
 
 def _leaves_noise(fit: Fit) -> bool:
-    return nearly_noise(fit) or only_instruments(fit.machine.case, fit.machine.amendment, fit)
+    return nearly_noise(fit) or is_colour(fit)
 
 
 def _first(begun: list[LawsAt], base: Fit) -> LawsAt | None:

@@ -49,9 +49,15 @@ def only_instruments(case: Case, amendment: Amendment, fit: Fit) -> bool:
 
 
 def theirs(fit: Fit) -> bool:
-    """Whether what a fit leaves may be what instruments are off by beside their noise: by its size, or by its evidence
-    where nobody gave that of the noise."""
-    return within_instruments(fit) or only_instruments(fit.machine.case, fit.machine.amendment, fit)
+    """Whether what a fit leaves may be what instruments are off by beside their noise: by its size, or as colour."""
+    return within_instruments(fit) or is_colour(fit)
+
+
+def is_colour(fit: Fit) -> bool:
+    """Whether evidence says so of what a fit leaves, where nobody gave the level of some noise: what is coloured has no
+    size to go by."""
+    unknown = not all(noise.given for noise in fit.noise.values())
+    return unknown and only_instruments(fit.machine.case, fit.machine.amendment, fit)
 
 
 def gained(case: Case, before: tuple[Amendment, Fit], after: tuple[Amendment, Fit]) -> float:

@@ -11,7 +11,7 @@ from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.trace import looking
 from lacuna.discovery.efforts.guide import Guided, guide
-from lacuna.discovery.efforts.instruments import only_instruments
+from lacuna.discovery.efforts.instruments import is_colour
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.laws.begun import begun_at
 from lacuna.discovery.efforts.laws.screening import proposals
@@ -103,7 +103,7 @@ class LawsAt:
 
 
 def _settled(fit: Fit) -> bool:
-    return settled(fit) or only_instruments(fit.machine.case, fit.machine.amendment, fit)
+    return settled(fit) or is_colour(fit)
 
 
 def _near(fitted: list[Proposal], best: Proposal, base: Fit) -> list[Proposal]:
