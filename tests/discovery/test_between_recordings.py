@@ -71,7 +71,7 @@ def test_a_drag_that_goes_with_the_load_is_found_and_drawn(sleds: Path) -> None:
         said = eval(law.replace("^", "**"), {"sign": np.sign, "abs": np.abs, "v": 1.5, "m": m})
         assert said == pytest.approx(-0.4 * m * 1.5**2, rel=0.05), law
     (drawn,) = _drawn(found, found.opened.locator, found.findings)
-    assert drawn.unit == "N" and drawn.variable.startswith("v / m/s")
+    assert drawn.unit == "N" and drawn.variable == "v  (m/s)"
     off = (drawn.law - drawn.effort) / drawn.error
     assert np.mean(np.abs(off) < 2) > 0.9  # the band is that of an effort of any course
     assert np.std(drawn.error) < 0.2 * np.std(drawn.law)  # and tells the law from none
