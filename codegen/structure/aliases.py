@@ -168,6 +168,12 @@ def _alias_pairs(
         """May `-name` stand in its place? What holds between events is only ever solved for a variable itself."""
         return model.variables[name].type == "Real" and model.variables[name].variability == flat.CONTINUOUS
 
+    def before(name: str) -> Expr | None:
+        """The value of pre(name) at the start, where it is fixed: one of each discrete variable, whatever equals it."""
+        v = model.variables[name]
+        return _start(v, 1) if v.variability == flat.DISCRETE and _is_fixed(v) else None
+
+    settled = {name: start for name in model.variables if (start := before(name)) is not None}
     speeds: dict[Expr, tuple[str, int]] = {}
     for eq in model.equations:
         pair, speed = alias_pair(eq), _speed(eq)
@@ -183,6 +189,9 @@ def _alias_pairs(
             kept.append(replace(eq, lhs=ZERO, rhs=ZERO, text=eq.text or f"{eq.lhs} = {eq.rhs}"))
             continue
         if a == b or not removable(drop, keep) or (pair[2] * sign_a * sign_b < 0 and not solvable(drop)):
+            kept.append(eq)
+            continue
+        if drop in settled and settled.setdefault(keep, settled[drop]) is not settled[drop]:
             kept.append(eq)
             continue
         union.parent[drop] = (keep, pair[2] * sign_a * sign_b)

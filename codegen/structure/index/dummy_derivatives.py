@@ -23,7 +23,7 @@ from lacuna.codegen.structure.nominal import infer
 from lacuna.codegen.structure.sizes import told
 from lacuna.codegen.structure.system import DeclaredValues, DefinedValues, GenericValues, Row, System
 from lacuna.codegen.symbolic.differentiate import partial
-from lacuna.codegen.symbolic.expr import ONE, Expr, der, is_const, maximum, var
+from lacuna.codegen.symbolic.expr import ONE, Expr, const, der, is_const, maximum, mul, var
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import Rewriter, all_statements
 from lacuna.codegen.symbolic.union_find import UnionFind
@@ -40,7 +40,7 @@ def choose_states(model: flat.FlatModel, rows: list[Row], names: list[str], rela
     sizes = _sizes(system, [*choice.groups, *choice.watched])
     selections = [Selection(k + 1, g, model, sizes) for k, g in enumerate(choice.groups)]
     watches = [
-        Watch(len(selections) + k + 1, g, {d: sizes[d.args[0]] for d in (*g.free, *g.others)})
+        Watch(len(selections) + k + 1, g, _beside_states(model, g, sizes, choice.slopes))
         for k, g in enumerate(reversed(choice.watched))
     ]
     algorithms = [s.algorithm(relations + k) for k, s in enumerate(selections)]
@@ -122,6 +122,25 @@ def _sizes(system: System, groups: Sequence[Group]) -> dict[Expr, Expr]:
     return found
 
 
+def _beside_states(
+    model: flat.FlatModel, group: Group, sizes: dict[Expr, Expr], slopes: dict[Expr, dict[Expr, float]]
+) -> dict[Expr, Expr]:
+    """The size of each candidate of a group that is watched, by its derivative. Guesses of sizes in one unit compare,
+    those in several do not: in another unit than the states' they are at least what the states move at the start."""
+    kinds: dict[tuple[str, int], list[Expr]] = {}
+    for d in (*group.free, *group.others):
+        kinds.setdefault((model.variables[str(base_of(d).value)].unit, text_of(d).count("der(")), []).append(d)
+    found = {}
+    for alike in kinds.values():
+        moved = [
+            mul(const(slope), sizes[state.args[0]])
+            for state in ([] if set(alike) & set(group.selected) else group.selected)
+            if (slope := max(abs(slopes[d].get(state, 0.0)) for d in alike))
+        ]
+        found |= {d: reduce(maximum, moved, sizes[d.args[0]]) for d in alike}
+    return {d: found[d] for d in (*group.free, *group.others)}
+
+
 def _variables(rows: list[Row], names: list[str]) -> dict[Expr, int]:
     """Every unknown and derivative of one that occurs, with its order of differentiation; in declaration order."""
     highest: dict[str, int] = {}
@@ -150,6 +169,7 @@ class _Choice:
     dummies: set[Expr] = field(default_factory=set)
     groups: list[Group] = field(default_factory=list)
     watched: list[Group] = field(default_factory=list)
+    slopes: dict[Expr, dict[Expr, float]] = field(default_factory=dict)  # of what is determined by what is not
 
     def of(self, rows: list[Row]) -> _Choice:
         """From the highest derivatives down: what stands for a constraint's derivative may do so for its integral."""
@@ -167,9 +187,12 @@ class _Choice:
 
     def _level(self, rows: list[Row], candidates: list[Expr]) -> set[Expr]:
         """Derivatives of one level that are algebraic, at least for some time."""
-        pivots = Elimination(self.model, rows, candidates, self.values, self._strength).run()
+        elimination = Elimination(self.model, rows, candidates, self.values, self._strength)
+        pivots = elimination.run()
         if len(pivots) < len(candidates) and any(p.varies for p in pivots.values()):
-            pivots = Elimination(self.model, rows, candidates, self.values, self._strength).run(steady_first=True)
+            elimination = Elimination(self.model, rows, candidates, self.values, self._strength)
+            pivots = elimination.run(steady_first=True)
+        self.slopes |= elimination.slopes()
         chosen = {p.column for p in pivots.values()}
         self.dummies |= chosen
         for group in self._groups(rows, pivots, candidates):

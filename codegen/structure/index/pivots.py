@@ -56,6 +56,7 @@ class Elimination:
             for c in line:
                 self._users[c].add(r)
         self._strength = [strength(v) for v in candidates]
+        self._taken: list[tuple[int, int, float]] = []  # row, column and value of each pivot, in turn
 
     def _entry(self, row: Row, v: Expr) -> Entry:
         slope = partial(row.residual, v)
@@ -86,12 +87,24 @@ class Elimination:
                 continue  # eliminated, or another number by now
             pivot = matrix[r].pop(c)
             chosen[self._rows[r]] = Pivot(self._candidates[c], pivot.varies)
+            self._taken.append((r, c, pivot.value))
             for other in sorted(o for o in self._users[c] if self._rows[o] not in chosen):
                 for k in self._subtract(r, pivot, other, c):
                     heapq.heappush(queue, key(other, k))
         if len(chosen) < len(self._rows):
             self._refuse()
         return chosen
+
+    def slopes(self) -> dict[Expr, dict[Expr, float]]:
+        """After `run`, of each candidate that is determined by those that are not, at the start values."""
+        found: dict[Expr, dict[Expr, float]] = {}
+        for r, c, pivot in reversed(self._taken):
+            own = found[self._candidates[c]] = {}
+            for k, e in self._matrix[r].items():
+                of = self._candidates[k]
+                for state, slope in found.get(of, {of: 1.0}).items():
+                    own[state] = own.get(state, 0.0) - e.value / pivot * slope
+        return found
 
     def _subtract(self, r: int, pivot: Entry, other: int, c: int) -> list[int]:
         """Take row r from another one, so that it is free of column c; the columns that may be pivots there now."""

@@ -198,3 +198,49 @@ def test_slopes_are_no_unknowns_of_the_residual_form(tmp_path: Path, solver: str
     assert result.complete, result.failure
     t, b = result.time, 1e-5 * (1 + result.time)
     assert result["y"] == pytest.approx(1e5 * np.exp(-t) * np.exp(-(1e-5 + 1e-6 * t) / b), rel=1e-6)
+
+
+LEVER = """model Lever "A slider in m by an angle in rad that stateSelect holds on to"
+  parameter Real r(unit = "m") = 1, J(unit = "kg.m2") = 1, m(unit = "kg") = 1;
+  Real phi(unit = "rad", start = 0, fixed = true, nominal = 100, stateSelect = StateSelect.always);
+  Real w(unit = "rad/s", start = 1, fixed = true, nominal = 100, stateSelect = StateSelect.always);
+  Real x(unit = "m", nominal = 1e-3), v(unit = "m/s", nominal = 1e-3), F(unit = "N");
+equation
+  der(phi) = w; der(x) = v;
+  x*(2 + sin(phi)) = r*(1 + phi);
+  J*der(w) = -F*(r - x*cos(phi)); m*der(v) = F*(2 + sin(phi));
+end Lever;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_state_is_no_bad_one_for_sizes_in_several_units(tmp_path: Path, solver: str) -> None:
+    """dx/dphi is near 1 m all the time, and 1e5 by what the nominal values say."""
+    r = run(tmp_path, LEVER, 2.0, solver=solver)
+    x, phi = r["x"], r["phi"]
+    np.testing.assert_allclose(x * (2 + np.sin(phi)), 1 + phi, rtol=1e-7)
+    energy = r["w"] ** 2 + r["v"] ** 2
+    np.testing.assert_allclose(energy, energy[0], rtol=1e-6)
+
+
+CRANK = """model Crank "The slider is held on to as the state, which it is none of in its dead centre"
+  parameter Real L(unit = "m") = 1, J(unit = "kg.m2") = 1, m(unit = "kg") = 1;
+  Real phi(unit = "rad", start = {start}, fixed = true), w(unit = "rad/s", start = 1, fixed = true), F(unit = "N");
+  Real x(unit = "m", start = cos({start}), stateSelect = StateSelect.always);
+  Real v(unit = "m/s", start = -sin({start}), stateSelect = StateSelect.always);
+equation
+  der(phi) = w; der(x) = v;
+  x = L*cos(phi);
+  J*der(w) = F*L*sin(phi); m*der(v) = F;
+end Crank;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("start", [-1.0, -0.1, -0.01])
+def test_a_state_in_another_unit_is_watched(tmp_path: Path, solver: str, start: float) -> None:
+    compiled = compile_model(write_model(tmp_path, CRANK.format(start=start)), cache_directory=str(tmp_path))
+    model = runtime.Model(compiled.path)
+    r = runtime.simulate(model, solver=solver, stop=2.0, rtol=1e-6)
+    assert not r.complete
+    assert r.failure.time < 2 * abs(start)

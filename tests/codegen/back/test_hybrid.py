@@ -353,3 +353,28 @@ end Ticks;
     assert r["x"][-1] == pytest.approx(1.04, rel=1e-9)
     assert r["n"][-1] == 11
     assert set(r["y"]) == {0.0}
+
+
+EQUAL = """model Equal "Equal discrete variables, each with a value of its own before the start"
+  parameter Integer earlier = 1;
+  Integer a(start = earlier, fixed = true); Integer b(start = 2, fixed = true);
+  Integer of_a; Integer of_b; Real x(start = 0, fixed = true);
+equation
+  when time > 1 then b = pre(b) + 3; end when;
+  a = b;
+  when {initial(), time > 2} then of_a = pre(a); of_b = pre(b); end when;
+  der(x) = a;
+end Equal;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_equal_discrete_variables_may_have_been_others_before(simulate, solver: str) -> None:
+    """A fixed start is that of pre(v) (8.6): no contradiction, unlike that of states."""
+    r = simulate(EQUAL, 3.0, solver)
+    early, late = r.time < 1, r.time > 2
+    np.testing.assert_array_equal(r["a"], r["b"])
+    assert set(r["a"][early]) == {2} and set(r["a"][late]) == {5}
+    assert set(r["of_a"][early]) == {1} and set(r["of_b"][early]) == {2}
+    assert set(r["of_a"][late]) == set(r["of_b"][late]) == {5}
+    assert r["x"][-1] == pytest.approx(2 + 2 * 5)
