@@ -124,10 +124,11 @@ def _speed(eq: flat.Equation) -> tuple[str, Expr, int] | None:
 
 
 class _Union:
-    """Union-find over names with a sign on every link."""
+    """Union-find over names with a sign on every link; `before`: values of pre(v), which each name has its own of."""
 
-    def __init__(self) -> None:
+    def __init__(self, before: dict[str, Expr]) -> None:
         self.parent: dict[str, tuple[str, int]] = {}
+        self._before = before
 
     def find(self, name: str) -> tuple[str, int]:
         sign = 1
@@ -136,11 +137,19 @@ class _Union:
             sign *= s
         return name, sign
 
+    def join(self, name: str, root: str, sign: int) -> bool:
+        """Whether `name` can be sign * root before the start, too: then it is."""
+        own = self._before.get(name)
+        if own is not None and self._before.setdefault(root, own) is not own:
+            return False
+        self.parent[name] = (root, sign)
+        return True
+
 
 def _alias_pairs(
     model: flat.FlatModel, differentiated: set[str]
 ) -> tuple[dict[str, tuple[str, int]], list[flat.Equation]]:
-    union, kept = _Union(), []
+    union, kept = _Union(_before_the_start(model)), []
     assigned_elsewhere = _assigned_at_events(model)
 
     def rank(name: str) -> tuple:
@@ -168,12 +177,6 @@ def _alias_pairs(
         """May `-name` stand in its place? What holds between events is only ever solved for a variable itself."""
         return model.variables[name].type == "Real" and model.variables[name].variability == flat.CONTINUOUS
 
-    def before(name: str) -> Expr | None:
-        """The value of pre(name) at the start, where it is fixed: one of each discrete variable, whatever equals it."""
-        v = model.variables[name]
-        return _start(v, 1) if v.variability == flat.DISCRETE and _is_fixed(v) else None
-
-    settled = {name: start for name in model.variables if (start := before(name)) is not None}
     speeds: dict[Expr, tuple[str, int]] = {}
     for eq in model.equations:
         pair, speed = alias_pair(eq), _speed(eq)
@@ -188,14 +191,16 @@ def _alias_pairs(
         if a == b and pair[2] * sign_a * sign_b > 0:
             kept.append(replace(eq, lhs=ZERO, rhs=ZERO, text=eq.text or f"{eq.lhs} = {eq.rhs}"))
             continue
-        if a == b or not removable(drop, keep) or (pair[2] * sign_a * sign_b < 0 and not solvable(drop)):
+        sign = pair[2] * sign_a * sign_b
+        if a == b or not removable(drop, keep) or (sign < 0 and not solvable(drop)) or not union.join(drop, keep, sign):
             kept.append(eq)
-            continue
-        if drop in settled and settled.setdefault(keep, settled[drop]) is not settled[drop]:
-            kept.append(eq)
-            continue
-        union.parent[drop] = (keep, pair[2] * sign_a * sign_b)
     return {name: union.find(name) for name in union.parent}, kept
+
+
+def _before_the_start(model: flat.FlatModel) -> dict[str, Expr]:
+    """The values of pre(v) at the start that are fixed (8.6)."""
+    discrete = {name: v for name, v in model.variables.items() if v.variability == flat.DISCRETE}
+    return {name: _start(v, 1) for name, v in discrete.items() if _is_fixed(v)}
 
 
 def _assigned_at_events(model: flat.FlatModel) -> set[str]:
