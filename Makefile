@@ -78,7 +78,7 @@ combined: setup ## Maps over two faults at once and how well both are read (minu
 prove: setup ## The blind proof of the diagnosis (long, resumes), writes docs/proof.md
 	@$(PYTHON) -m tests.proof --out $(OUT)/prove
 
-prove-machines: setup ## The proof on machines of others (SMALL=1: two cases of each; resumes)
+prove-machines: setup ## The proof on machines of others (SMALL=1: two cases of each; resumes), writes docs/proof-machines.md
 	@$(PYTHON) -m tests.proof.machines --out $(OUT)/prove-machines $(if $(SMALL),--small)
 
 prove-experiments: setup ## Proposed experiments made on the truth of undetermined cases (long, resumes)

@@ -15,21 +15,12 @@ from urllib.request import Request, urlopen
 
 import pytest
 
-MODEL = """model Tank
-  Real h(start=1, fixed=true);
-equation
-  der(h) = -h;
-  annotation(experiment(StopTime=1));
-end Tank;
-"""
-PATIENCE = 60  # s, of a machine with much to do
+from tests.watched import MODEL, PATIENCE, written
 
 
 @pytest.fixture
 def tank(tmp_path: Path) -> Path:
-    path = tmp_path / "Tank.mo"
-    path.write_text(MODEL, encoding="utf-8")
-    return path
+    return written(tmp_path)
 
 
 @pytest.fixture

@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 
 import lacuna
+from tests.watched import MODEL, PATIENCE, written
 
 CHROMIUM = shutil.which("chromium")
 if CHROMIUM is None:
@@ -21,21 +22,10 @@ playwright = pytest.importorskip("playwright.sync_api", reason="Playwright is no
 
 pytestmark = pytest.mark.xdist_group("pages")
 
-MODEL = """model Tank
-  Real h(start=1, fixed=true);
-equation
-  der(h) = -h;
-  annotation(experiment(StopTime=1));
-end Tank;
-"""
-PATIENCE = 60  # s, of a machine with much to do
-
 
 @pytest.fixture
 def tank(tmp_path: Path) -> Path:
-    path = tmp_path / "Tank.mo"
-    path.write_text(MODEL, encoding="utf-8")
-    return path
+    return written(tmp_path)
 
 
 @pytest.fixture

@@ -85,10 +85,8 @@ def name_there(site: Site, location: str) -> str:
     that name is in its equations."""
     if site.kind == "input":
         return site.label
-    if site.kind == "equation" and site.instance and not f"{location}.".startswith(f"{site.instance}."):
-        return own_name(site)
-    if site.kind == "parameter" and site.instance and not f"{location}.".startswith(f"{site.instance}."):
-        return site.instance
+    if site.kind in ("equation", "parameter") and site.instance and not f"{location}.".startswith(f"{site.instance}."):
+        return own_name(site) if site.kind == "equation" else site.instance
     read = rf"(?<![\w.]){re.escape(location)}(?![\w.])"
     alone = site.kind == "parameter" and "." not in site.label
     return site.label if alone and not any(re.search(read, part.label) for part in site.parts) else location

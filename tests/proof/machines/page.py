@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 import csv
 from dataclasses import astuple, dataclass, fields
+import io
 from pathlib import Path
 
 import numpy as np
 
 import lacuna
+from lacuna.written import write_whole
 from tests.proof.machines.plan import STRANGERS_FROM
-from tests.proof.machines.score import NULL, PRESENT, Score, by_style, listing, table
-from tests.proof.score import wilson
+from tests.proof.machines.score import NULL, PRESENT, Score, by_style, listing, share_of, table
 
 RUNS = Path(__file__).with_name("runs.csv")
 
@@ -68,18 +69,14 @@ def keep(run: Run, file: Path = RUNS) -> list[Run]:
     known = runs(file)
     note = next((r.note for r in known if r.key == run.key), run.note)
     every = [*(r for r in known if r.key != run.key), Run(*astuple(run)[:-1], note)]
-    with file.open("w", newline="") as out:
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerow([f.name for f in fields(Run)])
-        for r in every:
-            *head, share, text = astuple(r)
-            writer.writerow([*head, f"{share:.2f}", text])
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow([f.name for f in fields(Run)])
+    for r in every:
+        *head, share, text = astuple(r)
+        writer.writerow([*head, f"{share:.2f}", text])
+    write_whole(file, out.getvalue())
     return every
-
-
-def _share(hits: int, of: int) -> str:
-    low, high = wilson(hits, of)
-    return f"{hits} of {of} ({low:.0%} to {high:.0%})" if of else "none"
 
 
 def _pooled(every: Sequence[Run]) -> str:
@@ -90,9 +87,9 @@ def _pooled(every: Sequence[Run]) -> str:
     )
     lines = ["| | runs | cases | verdict right | located | false findings |", "| --- " * 6 + "|"]
     for name, of in groups:
-        right = _share(sum(r.right for r in of), sum(r.judged for r in of))
-        located = _share(sum(r.located for r in of), sum(r.present for r in of))
-        false = _share(sum(r.false for r in of), sum(r.nulls for r in of))
+        right = share_of(sum(r.right for r in of), sum(r.judged for r in of))
+        located = share_of(sum(r.located for r in of), sum(r.present for r in of))
+        false = share_of(sum(r.false for r in of), sum(r.nulls for r in of))
         lines.append(f"| {name} | {len(of)} | {sum(r.run for r in of)} | {right} | {located} | {false} |")
     return "\n".join(lines) + "\n"
 

@@ -75,7 +75,8 @@ def score_folder(diagnoses: Path, truths: Path, names: list[str]) -> list[Score]
     return found
 
 
-def _share(hits: int, of: int) -> str:
+def share_of(hits: int, of: int) -> str:
+    """A share with its 95 % interval, in words."""
     low, high = wilson(hits, of)
     return f"{hits} of {of} ({low:.0%} to {high:.0%})" if of else "none run"
 
@@ -91,11 +92,11 @@ def table(scores: list[Score]) -> str:
     seconds = [s.seconds for s in scores]
     rows = [
         ("verdict, balanced over missing and null", f"{balanced:.0%}", "92 %"),
-        ("verdict right where something is missing", _share(sum(s.right for s in present), len(present)), ""),
-        ("verdict right where nothing is missing", _share(sum(s.right for s in null), len(null)), ""),
-        ("located", _share(sum(s.located for s in present), len(present)), "90 %"),
-        ("two effects, both located", _share(sum(s.all_located for s in two), len(two)), "80 %"),
-        ("false findings where nothing is missing", _share(sum(s.false for s in null), len(null)), "2 %"),
+        ("verdict right where something is missing", share_of(sum(s.right for s in present), len(present)), ""),
+        ("verdict right where nothing is missing", share_of(sum(s.right for s in null), len(null)), ""),
+        ("located", share_of(sum(s.located for s in present), len(present)), "90 %"),
+        ("two effects, both located", share_of(sum(s.all_located for s in two), len(two)), "80 %"),
+        ("false findings where nothing is missing", share_of(sum(s.false for s in null), len(null)), "2 %"),
         ("share of the gain, median", f"{np.median(shares):.2f}" if shares else "none run", "0.9"),
         ("seconds a case, median and slowest", f"{np.median(seconds):.0f}, {max(seconds):.0f}" if seconds else "", ""),
     ]
@@ -122,4 +123,4 @@ def listing(scores: list[Score]) -> str:
 def by_style(scores: list[Score]) -> str:
     """Verdicts by how the model was written."""
     right, every = Counter(s.style for s in scores if s.right), Counter(s.style for s in scores)
-    return "; ".join(f"{style}: {_share(right[style], every[style])}" for style in sorted(every))
+    return "; ".join(f"{style}: {share_of(right[style], every[style])}" for style in sorted(every))
