@@ -18,7 +18,9 @@ class BufferedLibrary(Library):
         super().__init__(paths)
         self._texts = texts
         self._resolved: dict[Path, Path] = {}  # of the files that were parsed
-        self._on_disk: dict[Path, tuple[int, int] | None] = {}  # files that were read, and their folders, as they were
+        self._on_disk: dict[Path, tuple[int, int] | None] = {}  # what was read, and folders looked into, as they were
+        for place in self._places:
+            self._on_disk[place] = _as_it_is(place)
 
     def parse_file(self, path: Path) -> list[ast.Class]:
         if path not in self._parsed:
@@ -30,6 +32,10 @@ class BufferedLibrary(Library):
                 return super().parse_file(path)
             self._parsed[path] = parse(text, str(path))
         return self._parsed[path]
+
+    def _look_in(self, place: Path, first: bool = False) -> None:
+        self._on_disk.setdefault(place, _as_it_is(place))
+        super()._look_in(place, first)
 
     @property
     def current(self) -> bool:
@@ -45,7 +51,7 @@ class BufferedLibrary(Library):
         for at in [at for at, resolved in self._resolved.items() if resolved == path]:
             gone.update(id(cls) for cls in self._parsed.pop(at, ()))
             self._on_disk.pop(at, None)
-        self._members = {key: cls for key, cls in self._members.items() if cls is not None and id(cls) not in gone}
+        self._members = {key: cls for key, cls in self._members.items() if id(cls) not in gone}
         self.forget_views()
         return True
 

@@ -68,6 +68,7 @@ class Table:
     def __init__(self) -> None:
         self.nodes: dict[tuple, Expr] = {}
         self.leaves: dict[Expr, frozenset[Expr]] = {}
+        self.names: dict[Expr, frozenset[str]] = {}
         self.nonlinear: dict[Expr, frozenset[Expr]] = {}
         self.plain: dict[Expr, Expr] = {}
         self.measured: dict[Expr, type[float]] = {}
@@ -99,7 +100,7 @@ def own_table() -> Iterator[Table]:
 
 def node(op: str, args: tuple[Expr, ...] = (), value: object = None, type: str = REAL) -> Expr:
     """The unique node of this shape, without any folding."""
-    key = (op, tuple(map(id, args)), value, value.__class__, type, _signed_zero(value))
+    key = (op, tuple(map(id, args)), value, value.__class__, type, value == 0.0 and _signed_zero(value))
     nodes = _current.table.nodes
     found = nodes.get(key) or _lasting.nodes.get(key)
     if found is None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 
-from lacuna.codegen.symbolic.expr import Expr, table, transform
+from lacuna.codegen.symbolic.expr import Expr, table, transform, walk
 
 LEAF_OPS = frozenset(("var", "der", "pre", "time", "rel", "tick", "initial", "terminal"))
 
@@ -23,6 +23,15 @@ def leaves(e: Expr) -> frozenset[Expr]:
             below = [leaves(a) for a in (e.args[:1] if e.op == "annotated" else e.args)]
             found = below[0] if len(below) == 1 else frozenset().union(*below)
         memo[e] = found
+    return found
+
+
+def names_in(e: Expr) -> frozenset[str]:
+    """Names of the variables in `e`, those under a derivative or before an event included."""
+    memo = table().names
+    found = memo.get(e)
+    if found is None:
+        found = memo[e] = frozenset(str(n.value) for n in walk(e) if n.op == "var")
     return found
 
 

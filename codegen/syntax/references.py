@@ -4,8 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
+from functools import cache
 
 from lacuna.codegen.syntax import ast
+
+
+@cache
+def parts_of(kind: type) -> tuple[str, ...]:
+    """The fields of a kind of node that hold what is written there; of what is no node none."""
+    return tuple(f.name for f in fields(kind) if f.name != "span") if is_dataclass(kind) else ()
 
 
 def calls_nothing(tree: object) -> bool:
@@ -14,9 +21,7 @@ def calls_nothing(tree: object) -> bool:
         return all(map(calls_nothing, tree))
     if isinstance(tree, dict):
         return all(map(calls_nothing, tree.values()))
-    if not is_dataclass(tree):
-        return True
-    return not isinstance(tree, ast.Call) and all(calls_nothing(getattr(tree, f.name)) for f in fields(tree))
+    return not isinstance(tree, ast.Call) and all(calls_nothing(getattr(tree, n)) for n in parts_of(type(tree)))
 
 
 def references(tree: object) -> Iterator[ast.Ref]:
@@ -28,7 +33,6 @@ def references(tree: object) -> Iterator[ast.Ref]:
             yield from references(part)
     elif isinstance(tree, dict):
         yield from references(list(tree.values()))
-    elif is_dataclass(tree):
-        for f in fields(tree):
-            if f.name != "span":
-                yield from references(getattr(tree, f.name))
+    else:
+        for name in parts_of(type(tree)):
+            yield from references(getattr(tree, name))

@@ -6,7 +6,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from lacuna.codegen.symbolic.annotated import tells_units
-from lacuna.codegen.symbolic.expr import Expr, walk
+from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.symbolic.leaves import names_in
 from lacuna.codegen.units.inference import SECOND, UNKNOWN, Finding, UnitError, UnitInference, over
 from lacuna.units import Unit
 
@@ -18,7 +19,6 @@ class Undeclared:
 
     def __init__(self, units: dict[str, Finding], inference: Callable[[], UnitInference]) -> None:
         self.units, self._inference = units, inference
-        self._names: dict[Expr, set[str]] = {}  # of the variables in sides of equations
 
     def infer(self, equations: list[Sides]) -> None:
         """To a fixed point. First from equations without a number that may have a unit itself: what is inferred from
@@ -50,10 +50,7 @@ class Undeclared:
         return self._has_unknown(lhs) or self._has_unknown(rhs)
 
     def _has_unknown(self, e: Expr) -> bool:
-        names = self._names.get(e)
-        if names is None:
-            names = self._names[e] = {str(n.value) for n in walk(e) if n.op == "var"}
-        return any(self.units.get(name) == UNKNOWN for name in names)
+        return any(self.units.get(name) == UNKNOWN for name in names_in(e))
 
     def _solve(self, e: Expr, unit: Finding, inference: UnitInference) -> bool:
         """Give the unknown inside `e` the unit that makes `e` have `unit`, where there is exactly one way."""

@@ -19,7 +19,7 @@ from lacuna.suggest import did_you_mean
 MAX_DEPTH = 40
 
 
-@dataclass
+@dataclass(slots=True)
 class Element:
     """A declaration as an instance sees it: own or inherited, with the modification from outside."""
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.inheritance import Element, inheriting, refuse_redeclaration
 from lacuna.codegen.flatten.classes.subtypes import ElementsOf, require_subtype
@@ -136,7 +138,7 @@ def _nested(nested: ast.Class, cls: ast.Class, context: Context, elements: Eleme
         bound = resolve_type(nested.constraint.base, Scope(context, cls))
         chosen = type_of(nested, context)
         if nested.alias is not None:  # its own sizes are not those of the types that are compared
-            chosen.dimensions = chosen.dimensions[len(nested.alias.dimensions) :]
+            chosen = replace(chosen, dimensions=chosen.dimensions[len(nested.alias.dimensions) :])
         require_subtype(chosen, bound, context, elements, nested.name, nested.span)
     if nested.redeclares:
         old = _inherited(context.library, cls, nested.name)

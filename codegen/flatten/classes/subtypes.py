@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.inheritance import Element
@@ -81,8 +82,7 @@ def _other_prefixes(offered: ast.Component, needed: ast.Component, types: list[T
 
 def _type_of(element: Element, context: Context) -> Type:
     found = resolve_type(element.declaration.type, Scope(context, element.cls, None))
-    found.dimensions = [0] * (len(found.dimensions) + len(element.declaration.dimensions))
-    return found
+    return replace(found, dimensions=[0] * (len(found.dimensions) + len(element.declaration.dimensions)))
 
 
 def _name(kind: Type) -> str:

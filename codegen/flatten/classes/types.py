@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.restrictions import check_class
@@ -30,7 +30,7 @@ ATTRIBUTES = {
 }  # fmt: skip
 
 
-@dataclass
+@dataclass(frozen=True)
 class Type:
     """`primitive` is Real, Integer, Boolean or String, else None and `cls` is structured."""
 
@@ -76,8 +76,22 @@ def _standing_in(cls: ast.Class, scope: Scope) -> ast.Class:
     return found
 
 
+class _Known(dict[ast.Class, Type]):
+    """What was found of classes: most components are of few types."""
+
+
 def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:
     """What a class is as the type of a component."""
+    known = context.table(_Known)
+    if cls not in known:
+        found = _type_of(cls, context, depth)
+        if context.library.resolving:  # what is inherited has no meaning yet
+            return found
+        known[cls] = found
+    return known[cls]
+
+
+def _type_of(cls: ast.Class, context: Context, depth: int) -> Type:
     if cls.literals is not None:
         check_class(cls, context)
         return Type("Integer", cls, tuple(name for name, _ in cls.literals))
@@ -87,28 +101,31 @@ def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:
         found = _of_alias(cls, context, depth)
         if found.primitive is None and not cls.alias.dimensions:
             return Type(None, cls)
-        if cls.alias.dimensions:  # what the type says is said of each element of this one
-            found.modifier = for_each(found.modifier)
-        for tree, around in reversed(constraints_of(cls)):
-            found.modifier = merge(from_tree(tree, Scope(context, around, None)), found.modifier)
-        own = from_tree(cls.alias.modification, inside)
-        if cls.alias.dimensions:
-            _refuse_scalars(own, cls.name)
-        found.modifier = merge(own, found.modifier)
-        found.dimensions = evaluate_dimensions(cls.alias.dimensions, inside, None, cls.name) + found.dimensions
-        found.causality = cls.alias.causality or found.causality
-        found.named = cls
-        return found
+        return _modified_by(cls, found, inside)
     if is_external(cls):
         return Type(EXTERNAL, cls)
     for clause in cls.extends:
         if str(clause.base) in PRIMITIVES or _is_primitive(clause.base, inside, depth):
             check_class(cls, context)
             found = resolve_type(clause.base, inside, depth + 1)
-            found.modifier = merge(from_tree(clause.modification, inside), found.modifier)
-            found.named = cls
-            return found
+            modifier = merge(from_tree(clause.modification, inside), found.modifier)
+            return replace(found, modifier=modifier, named=cls)
     return Type(None, cls)
+
+
+def _modified_by(cls: ast.Class, found: Type, inside: Scope) -> Type:
+    """The type that the short definition `cls` makes of `found`."""
+    alias, modifier = cls.alias, found.modifier
+    if alias.dimensions:  # what the type says is said of each element of this one
+        modifier = for_each(modifier)
+    for tree, around in reversed(constraints_of(cls)):
+        modifier = merge(from_tree(tree, Scope(inside.context, around, None)), modifier)
+    own = from_tree(alias.modification, inside)
+    if alias.dimensions:
+        _refuse_scalars(own, cls.name)
+    dimensions = evaluate_dimensions(alias.dimensions, inside, None, cls.name) + found.dimensions
+    causality = alias.causality or found.causality
+    return replace(found, modifier=merge(own, modifier), dimensions=dimensions, causality=causality, named=cls)
 
 
 def _refuse_scalars(said: Modifier, name: str) -> None:

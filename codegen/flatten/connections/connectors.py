@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.instance import Absent, ArrayNode, Instance, Node
@@ -17,16 +17,14 @@ from lacuna.codegen.syntax import ast
 Connector = Node | tuple[Leaf, int]  # the latter: one scalar of a connector that is a variable
 
 
-@dataclass(frozen=True)
-class End:
+class End(NamedTuple):
     """One scalar of a connector in a connection; `outside` where the connector belongs to the connecting model."""
 
     name: str
     outside: bool
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(NamedTuple):
     """A scalar of a connector: its end and the variable it is of."""
 
     end: End

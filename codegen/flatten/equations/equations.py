@@ -25,6 +25,7 @@ from lacuna.codegen.flatten.names.values import (
 )
 from lacuna.codegen.flatten.references.iterators import iterate
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr, to_text, walk
+from lacuna.codegen.symbolic.leaves import holds
 from lacuna.codegen.syntax import ast
 
 
@@ -157,11 +158,17 @@ def check_discrete(
     _check_before(equations, assigned, context)
 
 
+def _is_beside(e: Expr) -> bool:
+    """Is it of a variable, and not its value?"""
+    return e.op in ("der", "pre", "change")
+
+
 def _check_before(equations: list[flat.Equation], assigned: set[str], context: Context) -> None:
     """Outside of when-clauses there is no value before of what varies continuously, and what is set at events only has
     no derivative (3.7.4.2, 3.7.5). Raises R052, R054."""
     for e in equations:
-        for n in (n for side in (e.lhs, e.rhs) for n in walk(side) if n.op in ("der", "pre", "change")):
+        sides = [side for side in (e.lhs, e.rhs) if holds(side, _is_beside)]
+        for n in (n for side in sides for n in walk(side) if _is_beside(n)):
             name = n.args[0].value
             continuous = n.args[0].op == "var" and variability(n.args[0], context) == "continuous"
             if n.op in ("pre", "change") and continuous and name not in assigned:

@@ -15,9 +15,10 @@ def bind_texts(sections: Iterable[tuple[ast.Section, ast.Class, Instance]]) -> N
     for section, cls, instance in sections:
         if section.algorithm or section.initial:
             continue
+        scope = Scope(instance.context, cls, instance)
         for item in section.items:
             if isinstance(item, ast.Equality):
-                _bind(item, Scope(instance.context, cls, instance))
+                _bind(item, scope)
 
 
 def _bind(item: ast.Equality, scope: Scope) -> None:

@@ -77,7 +77,8 @@ def _note_places(leaf: Leaf, name: str) -> None:
     places = leaf.instance.context.places
     if leaf.modifier.value is not None:
         places[name, "binding"] = leaf.modifier.span
-    places |= {(name, key): child.span for key, child in leaf.modifier.children.items()}
+    for key, child in leaf.modifier.children.items():
+        places[name, key] = child.span
 
 
 def _is_hidden(leaf: Leaf) -> bool:
@@ -99,7 +100,7 @@ def _variable(leaf: Leaf, position: int, attributes: dict[str, Expr | str]) -> f
         description=leaf.declaration.description,
         fixed=leaf.fixed[position],
         final=leaf.modifier.final,
-        evaluated=leaf.is_structural and not leaf.is_free and _is_evaluated(leaf.declaration.annotation),
+        evaluated=leaf.is_structural and _is_evaluated(leaf.declaration.annotation) and not leaf.is_free,
         awaited=bool(leaf.instance.name) and leaf.causality == "input" and leaf.modifier.value is None,
         hidden=_is_hidden(leaf),
     )

@@ -38,6 +38,21 @@ class Lowering:
     expanded: Callable[..., Value]  # a reduction in a model over a range that varies
 
 
+@dataclass(slots=True)
+class Attempt:
+    """See `Context.attempt`. There is one for each item of a model: a generator takes three times as long."""
+
+    context: Context
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: object) -> bool:
+        if isinstance(error, Diagnostic):
+            self.context.note(error)
+        return isinstance(error, Diagnostic)
+
+
 @dataclass
 class Context:
     library: Library
@@ -76,16 +91,16 @@ class Context:
         """The model depends on this file from now on."""
         self.files[str(path)] = hashlib.sha256(content).hexdigest()
 
-    @contextmanager
-    def attempt(self) -> Iterator[None]:
+    def attempt(self) -> Attempt:
         """Collect a Diagnostic raised inside, so that independent findings come together."""
-        try:
-            yield
-        except Diagnostic as error:
-            if all(str(error) != str(known) for known in self.errors):
-                self.errors.append(error)
-            if len(self.errors) >= MAX_ERRORS or self.elements > MAX_ELEMENTS:
-                self.finish(whole=False)
+        return Attempt(self)
+
+    def note(self, error: Diagnostic) -> None:
+        """A finding, once. Raises the first where there are too many."""
+        if all(str(error) != str(known) for known in self.errors):
+            self.errors.append(error)
+        if len(self.errors) >= MAX_ERRORS or self.elements > MAX_ELEMENTS:
+            self.finish(whole=False)
 
     @contextmanager
     def nothing_inlined(self) -> Iterator[None]:

@@ -197,7 +197,7 @@ def same_modifier(one: Modifier | None, other: Modifier | None) -> bool:
 
 def refuse_each(*modifiers: Modifier | None) -> None:
     """Raises R038 for `each` in the modification of what is no array, nor part of one (7.2.5)."""
-    plain = [m for m in modifiers if m is not None and not m.in_array and not m.each]
+    plain = [m for m in modifiers if m is not None and m.children and not m.in_array and not m.each]
     for name, child in ((n, c) for m in plain for n, c in m.children.items()):
         if child.each:
             hint = "remove 'each'"

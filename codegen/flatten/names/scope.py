@@ -18,7 +18,7 @@ from lacuna.codegen.syntax import ast
 from lacuna.suggest import did_you_mean
 
 
-@dataclass
+@dataclass(slots=True)
 class Scope:
     context: Context
     cls: ast.Class
@@ -32,6 +32,10 @@ class Scope:
     message: list[Expr] | None = None  # in the text of an assert: what varies in it
     loop: Callable[..., Value] | None = None  # makes one of a reduction at run time
     pure: bool = False  # where no impure function may be called: lasting equations, functions that are not impure
+
+    def within(self, cls: ast.Class) -> Scope:
+        """The scope of what is written in `cls`."""
+        return self if cls is self.cls else replace(self, cls=cls)
 
     def with_locals(self, **values: Value) -> Scope:
         return replace(self, locals={**self.locals, **values})

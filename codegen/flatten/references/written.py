@@ -3,8 +3,7 @@ known condition leaves out, in loops that are passed no time, in components that
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import fields, is_dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.instance import Absent, ArrayNode, Instance, Node
@@ -15,6 +14,7 @@ from lacuna.codegen.flatten.references.class_values import from_class
 from lacuna.codegen.flatten.references.references import member
 from lacuna.codegen.library.predefined import PRIMITIVES
 from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.references import parts_of
 from lacuna.suggest import did_you_mean
 
 Bound = Mapping[str, ast.Class | None]  # names of functions and loops; of those of records their classes
@@ -37,19 +37,20 @@ def instances(top: Instance) -> Iterator[Instance]:
 
 def check_written(top: Instance) -> None:
     """Report names without a meaning in `top` and below, of each class once."""
+    attempt = top.context.attempt
     for instance in instances(top):
         for section, cls in instance.sections:
+            scope = instance.scope_in(cls)
             for item in section.items:
-                with instance.context.attempt():
-                    check_names(item, Scope(instance.context, cls, instance))
-        for name in instance.elements:
-            with instance.context.attempt():
-                _check_declaration(instance, name)
+                with attempt():
+                    check_names(item, scope)
+        for name, element in instance.elements.items():
+            with attempt():
+                _check_declaration(instance, name, instance.scope_in(element.cls))
 
 
-def _check_declaration(instance: Instance, name: str) -> None:
+def _check_declaration(instance: Instance, name: str, scope: Scope) -> None:
     element = instance.elements[name]
-    scope = Scope(instance.context, element.cls, instance)
     if isinstance(instance.child(name), Absent):
         resolve_type(element.declaration.type, scope)
     check_names(element.declaration.modification, scope)
@@ -57,28 +58,47 @@ def _check_declaration(instance: Instance, name: str) -> None:
 
 def check_names(tree: object, scope: Scope, bound: Bound = _NONE) -> None:
     """Raises R002, R003 or R004 for a name in a part of the syntax tree that is neither one of `bound` nor found."""
-    if isinstance(tree, ast.Ref):
-        check_names(tree.subscripts, scope, bound)
-        if tree.absolute or tree.names[0] not in bound:
-            _check_variable(tree, scope)
-        elif (record := bound[tree.names[0]]) is not None:
-            _check_fields(record, tree, scope)
-    elif isinstance(tree, ast.Call | ast.PartialFunction):
-        if tree.function.absolute or tree.function.names[0] not in bound:
-            _check_function(tree.function, scope)
-        check_names([tree.named, tree.args if isinstance(tree, ast.Call) else []], scope, bound)
-    elif isinstance(tree, ast.For | ast.Comprehension):
-        for iterator in tree.iterators:
-            check_names(iterator.range, scope, bound)
-            bound = {**bound, iterator.name: None}
-        check_names(tree.body, scope, bound)
-    elif isinstance(tree, ast.Argument):
-        check_names(tree.modification, scope, bound)
-    elif isinstance(tree, list | tuple | dict):
-        for part in tree.values() if isinstance(tree, dict) else tree:
-            check_names(part, scope, bound)
-    elif is_dataclass(tree):
-        check_names([getattr(tree, f.name) for f in fields(tree) if f.name != "span"], scope, bound)
+    check = _CHECKS.get(type(tree))
+    if check is not None:
+        check(tree, scope, bound)
+    else:
+        for part in parts_of(type(tree)):
+            check_names(getattr(tree, part), scope, bound)
+
+
+def _check_each(trees: Iterable[object], scope: Scope, bound: Bound) -> None:
+    for tree in trees:
+        check_names(tree, scope, bound)
+
+
+def _check_ref(ref: ast.Ref, scope: Scope, bound: Bound) -> None:
+    check_names(ref.subscripts, scope, bound)
+    if ref.absolute or ref.names[0] not in bound:
+        _check_variable(ref, scope)
+    elif (record := bound[ref.names[0]]) is not None:
+        _check_fields(record, ref, scope)
+
+
+def _check_call(call: ast.Call | ast.PartialFunction, scope: Scope, bound: Bound) -> None:
+    if call.function.absolute or call.function.names[0] not in bound:
+        _check_function(call.function, scope)
+    _check_each(call.named.values(), scope, bound)
+    _check_each(call.args if isinstance(call, ast.Call) else (), scope, bound)
+
+
+def _check_loop(loop: ast.For | ast.Comprehension, scope: Scope, bound: Bound) -> None:
+    for iterator in loop.iterators:
+        check_names(iterator.range, scope, bound)
+        bound = {**bound, iterator.name: None}
+    check_names(loop.body, scope, bound)
+
+
+_CHECKS: dict[type, Callable[..., None]] = {
+    ast.Ref: _check_ref, ast.Call: _check_call, ast.PartialFunction: _check_call, ast.For: _check_loop,
+    ast.Comprehension: _check_loop, list: _check_each, tuple: _check_each,
+    ast.Argument: lambda argument, scope, bound: check_names(argument.modification, scope, bound),
+    dict: lambda parts, scope, bound: _check_each(parts.values(), scope, bound),
+}  # fmt: skip
 
 
 def _check_variable(ref: ast.Ref, scope: Scope) -> None:
