@@ -85,7 +85,6 @@ class Instance:
         self.context, self.cls, self.name, self.parent = context, cls, name, parent
         self.declaration = declaration
         self.span = declaration.span if declaration else cls.span
-        self._scope = Scope(context, cls, self)
         inherited = parent.variability if parent else ""
         self.variability = (declaration.variability if declaration else "") or inherited
         self._inherit_prefixes(declaration)
@@ -164,10 +163,6 @@ class Instance:
             return self._outer(element.declaration, Scope(self.context, element.cls, self))
         return self.child(name)
 
-    def scope_in(self, cls: ast.Class) -> Scope:
-        """The scope of what is written in `cls`, itself or a base of it."""
-        return self._scope if cls is self.cls else Scope(self.context, cls, self)
-
     def children(self) -> list[Node]:
         return [self.child(name) for name in self.elements]
 
@@ -176,16 +171,15 @@ class Instance:
 
     def build(self, element: Element) -> Node:  # the component that is declared
         declaration = element.declaration
-        scope = self.scope_in(element.cls)
+        scope = Scope(self.context, element.cls, self)
         redeclared = element.modifier is not None and isinstance(element.modifier.redeclare, ast.Component)
         own = own_modifier(element, scope, redeclared)
         modifier = without_removed(merge(within_element(element.modifier), own) or own)
         if declaration.outer and not declaration.inner:
             check_outer(declaration, element.modifier)
             return self._outer(declaration, scope)
-        if declaration.condition is not None and not evaluate_boolean(
-            declaration.condition, scope.within(element.written_in("condition"))
-        ):
+        condition = declaration.condition
+        if condition is not None and not evaluate_boolean(condition, scope.within(element.written_in("condition"))):
             return Absent(self.path_of(declaration.name), declaration.span)
         type_scope, size_scope = scope, scope.within(element.written_in("dimensions"))
         if redeclared:

@@ -15,7 +15,6 @@ from lacuna.codegen.flatten.names.scope import (
     base_class,
     base_classes,
     base_clauses,
-    is_impure,
     own_or_inherited,
 )
 from lacuna.codegen.flatten.names.unknown import unknown_element
@@ -160,7 +159,7 @@ def _in_place(new: ast.Class, old: ast.Class | None, context: Context, elements:
     if old is None:
         return
     constrain(context.library, new, old, by_element=False)
-    if is_impure(context.library, new) and not is_impure(context.library, old):
+    if _is_impure(context.library, new) and not _is_impure(context.library, old):
         hint = f"write impure before function {old.name}"
         raise Diagnostic("R034", f"{old.name} is redeclared as the impure function {new.name} (12.3)", new.span, hint)
     if _kind(new) != _kind(old) and "class" not in (new.kind, old.kind):
@@ -172,6 +171,11 @@ def _in_place(new: ast.Class, old: ast.Class | None, context: Context, elements:
     if old.constraint is not None and old.parent is not None:
         bound = resolve_type(old.constraint.base, Scope(context, old.parent))
     require_subtype(type_of(new, context), bound, context, elements, f"{new.name} for {old.name}", new.span)
+
+
+def _is_impure(library: Library, cls: ast.Class) -> bool:
+    """Is the function declared impure, or the one that it is short for?"""
+    return cls.impure or (cls.alias is not None and any(_is_impure(library, b) for b in base_classes(library, cls)))
 
 
 def _kind(cls: ast.Class) -> str:

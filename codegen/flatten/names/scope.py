@@ -291,11 +291,6 @@ def _hidden_by_extends(library: Library, cls: ast.Class, name: str, depth: int =
     return bool(having) and all(p or _hidden_by_extends(library, b, name, depth + 1) for p, b in having)
 
 
-def is_impure(library: Library, cls: ast.Class) -> bool:
-    """Is the function declared impure, or the one that it is short for?"""
-    return cls.impure or (cls.alias is not None and any(is_impure(library, b) for b in base_classes(library, cls)))
-
-
 def is_package_like(library: Library, cls: ast.Class, depth: int = 0) -> bool:
     """Does `cls` hold nothing but classes and constants (4.7)?"""
     if cls.kind in ("package", "operator") or depth > 20:

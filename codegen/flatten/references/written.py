@@ -39,14 +39,15 @@ def check_written(top: Instance) -> None:
     """Report names without a meaning in `top` and below, of each class once."""
     attempt = top.context.attempt
     for instance in instances(top):
+        around = Scope(instance.context, instance.cls, instance)
         for section, cls in instance.sections:
-            scope = instance.scope_in(cls)
+            scope = around.within(cls)
             for item in section.items:
                 with attempt():
                     check_names(item, scope)
         for name, element in instance.elements.items():
             with attempt():
-                _check_declaration(instance, name, instance.scope_in(element.cls))
+                _check_declaration(instance, name, around.within(element.cls))
 
 
 def _check_declaration(instance: Instance, name: str, scope: Scope) -> None:
