@@ -30,6 +30,6 @@ def explain(
     up), report.html and, where there is one, the amended model; prints the verdict. After an interruption, the same
     call takes up the fits that were finished.
     """
-    with progress() as tell:
+    with progress(limit) as tell:
         found = lacuna.explain(case, libraries=library or [], out=out, limit=limit, progress=tell)
     return Answer(found.diagnosis, [found.sentence], list(found.written), doubts(found.problems))

@@ -35,13 +35,13 @@ class Pace:
 
 
 @contextmanager
-def progress() -> Iterator[lacuna.Progress]:
+def progress(limit: float | None = None) -> Iterator[lacuna.Progress]:
     """A callback for what is being done: with --json lines; else a bar with the time left, where standard error is a
-    terminal."""
+    terminal. Of a search nobody knows the time left: its `limit` (s) is shown."""
     if shown.get() == "lines":
         yield _lines()
         return
-    with _bar() as tell:
+    with _bar("" if limit is None else f"limit {_span(limit)}") as tell:
         yield tell
 
 
@@ -63,7 +63,8 @@ def _lines() -> lacuna.Progress:
 
 
 @contextmanager
-def _bar() -> Iterator[lacuna.Progress]:
+def _bar(otherwise: str) -> Iterator[lacuna.Progress]:
+    """`otherwise`: what is said in place of the time left where that is not known."""
     from rich.console import Console
     from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
@@ -78,7 +79,7 @@ def _bar() -> Iterator[lacuna.Progress]:
 
         def tell(text: str, share: float | None) -> None:
             left = pace.left(share)
-            rest = "" if share is None else f"{share:.0%}" + ("" if left is None else f", {_span(left)} left")
+            rest = otherwise if share is None else f"{share:.0%}" + ("" if left is None else f", {_span(left)} left")
             bar.update(task, description=text, total=None if share is None else 1.0, completed=share or 0.0, rest=rest)
 
         yield tell

@@ -18,6 +18,7 @@ from lacuna.discovery.explanation.contenders import contenders
 from lacuna.discovery.explanation.explanation import Clock, Explanation
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.solver.so_far import telling
 from lacuna.discovery.fit.solver.time_limit import within
 from lacuna.discovery.naming.judge import judge_file
 from lacuna.discovery.steps import add_effort, add_findings, add_fit, add_location, add_scatter, opened
@@ -44,9 +45,9 @@ def explain(
     if not is_noise(result.base):
         add_location(result, progress)
         clock.done("locate")
-    with within(limit, begun), traced() as result.trace:
-        add_findings(result, library, progress)
-        add_scatter(result, progress)
+    with within(limit, begun), traced() as result.trace, telling(progress) as tell:
+        add_findings(result, library, tell)
+        add_scatter(result, tell)
     clock.done("name")
     conclude(result)
     add_effort(result, progress)

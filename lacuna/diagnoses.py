@@ -162,7 +162,7 @@ class Case:
 
         folder = self._out("explain", out)
         with kept(folder / ".unfinished"):
-            found = explained(self._case, progress=spoken(progress, limit), limit=limit)
+            found = explained(self._case, progress=spoken(progress), limit=limit)
         amended = write_amended(found, folder)
         if amended is not None:
             judge_written(found, amended)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-import time
 
 Progress = Callable[[str, float | None], None]
 """Called with what is being done, and which share of it is done (0 to 1; None where that is not known)."""
@@ -24,7 +23,7 @@ def watching(text: str, start: float, stop: float, progress: Progress | None) ->
     return None if progress is None else lambda time: progress(text, (time - start) / (stop - start))
 
 
-def spoken(progress: Progress | None, limit: float = 0.0) -> Callable[[str], None]:
-    """For stages that say what they do. The share is that of `limit` (s), after which they end at the latest."""
-    tell, begin = progress or silent, time.monotonic()
-    return lambda text: tell(text, min((time.monotonic() - begin) / limit, 1.0) if limit > 0 else None)
+def spoken(progress: Progress | None) -> Callable[[str], None]:
+    """For stages that say what they do: nobody knows which share of it is done."""
+    tell = progress or silent
+    return lambda text: tell(text, None)

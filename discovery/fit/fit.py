@@ -21,6 +21,7 @@ from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import STAGES, Objective, alike, anneal
 from lacuna.discovery.fit.solver.free import Free, clipped
 from lacuna.discovery.fit.solver.least_squares import Estimate, Problem
+from lacuna.discovery.fit.solver.so_far import noted
 from lacuna.discovery.fit.starts import as_known_to, own_beliefs, uncertain, uncertain_starts, with_starts
 from lacuna.discovery.fit.tracking import noise_bandwidth
 from lacuna.runtime import Variable
@@ -179,7 +180,7 @@ def fit(
     )  # fmt: skip
     if found is None:
         return None
-    return _finish(machine, recordings, dict(noise), found, level, problem.simulations, dict(fixed))
+    return noted(_finish(machine, recordings, dict(noise), found, level, problem.simulations, dict(fixed)))
 
 
 def linearised(

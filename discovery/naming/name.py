@@ -289,7 +289,7 @@ def _halve(
         scores = {id(c): score(c, base, correlation) for c in pool}
         pool.sort(key=lambda c: scores[id(c)])
         for c in best_starts(pool):
-            progress(f"fitted {c.attachment.label}: {scores[id(c)]:.1f}, best so far {pool[0].attachment.label}")
+            progress(f"fitted {c.attachment.label}: {scores[id(c)]:.1f}")
         fitted |= {c.attachment.label: c for c in best_starts(pool)}
         leader = min(fitted.values(), key=lambda c: score(c, base, correlation))
         pool = still_in(pool, scores, before, leader.fit, score(leader, base, correlation), base, correlation)

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import io
 import json
 from pathlib import Path
+import time
 from typing import Any
 
 import pytest
 from typer.testing import CliRunner
 
+import lacuna
 from lacuna.cli.main import app
-from lacuna.cli.progress import Pace
+from lacuna.cli.progress import Pace, progress
 
 pytest.importorskip("dask", reason="dask is not installed")
 
@@ -55,3 +58,23 @@ def test_the_time_left_is_that_of_the_present_stage() -> None:
     assert pace.left(0.0) is None  # another stage begins
     assert pace.left(0.5) == pytest.approx(1.0)
     assert pace.left(None) is None
+
+
+def test_of_a_search_nobody_knows_the_time_left(tmp_path: Path) -> None:
+    """Its limit is no share of it: it may end long before."""
+    case = Path(lacuna.__file__).parent / "examples" / "missing-physics"
+    done = run(["explain", str(case), "--limit", "1", "--json"], tmp_path)
+    assert done.exit_code == 0, done.stderr
+    lines = [json.loads(line) for line in done.stderr.splitlines()]
+    assert lines and all((line["share"], line["left"]) == (None, None) for line in lines)
+
+
+def test_the_limit_of_a_search_is_shown_in_place_of_the_time_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("FORCE_COLOR", "1")  # as to a terminal
+    monkeypatch.setenv("COLUMNS", "120")
+    stderr = io.StringIO()
+    monkeypatch.setattr("sys.stderr", stderr)
+    with progress(90.0) as tell:
+        tell("fitting", None)
+        time.sleep(0.3)  # the bar is drawn ten times a second
+    assert "fitting" in stderr.getvalue() and "limit 1 min 30 s" in stderr.getvalue()

@@ -74,3 +74,15 @@ def test_the_law_found_by_then_stands(tank: Path, monkeypatch: pytest.MonkeyPatc
     assert (found.stopped != "", found.verdict, found.reason) == (True, "missing_physics", "")
     assert [f.ranked.attachment.location for f in found.findings] == ["h"]
     assert sentence(found).endswith("The search was stopped after 1 s, before it was done.")
+
+
+def test_the_best_so_far_is_told_while_laws_are_fitted(tank: Path) -> None:
+    """Behind what is being done; at first errors of the sensor, at last the law that is the finding."""
+    said: list[str] = []
+    found = explain(load(tank), said.append)
+    fitting = [text for text in said if text.startswith("fitting a law") and "; best so far " in text]
+    best = list(dict.fromkeys(text.split("; best so far ")[1] for text in fitting))
+    (finding,) = found.findings
+    law = finding.ranked.attachment
+    assert "sensor:h" in best[0] and best[-1] == law.said(finding.ranked.fit.point) and best[-1].endswith("^3 at h")
+    assert said[-1].endswith(f"; best so far {best[-1]}")

@@ -189,3 +189,10 @@ def test_names_of_one_element_are_those_of_another() -> None:
     assert meant("der(left.arm.w)", "left.arm", "right.arm") == "der(right.arm.w)"
     assert meant("left.armature.i", "left.arm", "right.arm") == "left.armature.i"
     assert not is_shared("right.arm.w", ["left.arm", "right.arm"]) and is_shared("u", ["left.arm", "right.arm"])
+
+
+def test_the_best_law_of_a_family_so_far_is_told(leaking: Path) -> None:
+    said: list[str] = []
+    explain(load(leaking), said.append)
+    fitting = [text for text in said if text.startswith("fitting a law at h[:]: ") and "; best so far " in text]
+    assert fitting and fitting[-1].endswith("*abs(h[:])^2 at h[:]")
