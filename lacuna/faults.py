@@ -176,19 +176,17 @@ def growing_map(
     settings: str | Path | None = None, out: str | Path | None = None, jobs: int | None = None,
     progress: Progress | None = None,
 ) -> Iterator[OperatingMap]:  # fmt: skip
-    """The map of `maps` without figures, twice: at every fifth severity for a first look, then whole and written."""
+    """The map of `maps` without figures, twice: at every fifth severity for a first look, then whole and written; by
+    the assessment's solver, which is the faster one."""
     from lacuna.analysis.map.maps import build_map, first_look
 
     chosen = _settings(settings)
-    plant = _plant(str(actuator or chosen.model), class_name, libraries, chosen)
+    plant = _plant(str(actuator or chosen.model), class_name, libraries, chosen, quick=True)
     folder = Path(out) if out else Path("out/maps") / chosen.path.stem
     tell = counted(f"map of {plant.name}", progress)
 
-    first = partial(first_look, every=FIRST_LOOK)
-    looks = (
-        look(plant, chosen, folder, jobs=jobs, progress=tell) for look in (first, partial(build_map, figures=False))
-    )
-    return (OperatingMap(done, chosen) for done in looks)
+    looks = partial(first_look, every=FIRST_LOOK), partial(build_map, figures=False)
+    return (OperatingMap(look(plant, chosen, folder, jobs=jobs, progress=tell), chosen) for look in looks)
 
 
 @names_missing_packages
@@ -203,10 +201,8 @@ def combined_maps(
     jobs: int | None = None,
     progress: Progress | None = None,
 ) -> CombinedMap:
-    """A map over the fault of `settings` and the `other` one (the symbol of a [[combined]] entry), for `assess`.
-
-    `out` defaults to out/maps/NAME-with-OTHER; the rest is as in `maps`.
-    """
+    """A map over the fault of `settings` and the `other` one (the symbol of a [[combined]] entry), for `assess`; `out`
+    defaults to out/maps/NAME-with-OTHER, the rest is as in `maps`."""
     from lacuna.analysis.severity.combined.grid import build_grid, other_fault
 
     chosen = _settings(settings)
@@ -232,10 +228,14 @@ def _settings(path: str | Path | None) -> Settings:
     return load_settings(path or PAPER)
 
 
-def _plant(model: str, class_name: str, libraries: Iterable[str | Path], settings: Settings) -> ModelPlant:
+def _plant(
+    model: str, class_name: str, libraries: Iterable[str | Path], settings: Settings, quick: bool = False
+) -> ModelPlant:
+    """`quick`: while somebody waits, compiled in half the time, and solved as the assessment's tests are."""
     from lacuna.analysis.map.plant import ModelPlant
 
-    return ModelPlant.of(Source.of(model, class_name, libraries).compiled(), settings)
+    compiled = Source.of(model, class_name, libraries).compiled(quick=quick)
+    return ModelPlant.of(compiled, settings, settings.quick_solver if quick else None)
 
 
 @dataclass(frozen=True)

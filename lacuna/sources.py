@@ -37,8 +37,10 @@ class Source:
         name = f"{model}:{class_name}" if class_name else str(model)
         return cls(name, tuple(search_path(libraries)), units, Access.of(data, allow_external))
 
-    def compiled(self, modifications: Mapping[str, float] | None = None, sensitivities: bool = False) -> CompiledModel:
+    def compiled(
+        self, modifications: Mapping[str, float] | None = None, sensitivities: bool = False, quick: bool = False
+    ) -> CompiledModel:
         return compile_model(
             self.name, search_path=list(self.path), modifications=dict(modifications or {}), units=self.units,
-            sensitivities=sensitivities, access=self.access,
+            sensitivities=sensitivities, access=self.access, quick=quick,
         )  # fmt: skip

@@ -61,7 +61,7 @@ def build_map(
     }
     summary = summarise(settings, rows) | {
         "model": {"name": plant.name, "hash": plant.hash},
-        "solver": settings.raw["solver"],
+        "solver": settings.raw["solver"] | {"name": plant.solver},
         "jobs": jobs or os.cpu_count(),
         "seconds": {"passes": plant.passes} | seconds,
         "drawn": drawn_key(store) if figures else None,

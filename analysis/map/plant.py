@@ -42,6 +42,7 @@ class Plant(Protocol):
 
     name: str
     hash: str
+    solver: str
     passes: dict[str, float]  # seconds of each pass of its translation; empty where there was none
     equations: list[SourceEquation]
 
@@ -66,7 +67,7 @@ class ModelPlant:
     def __init__(self, name: str, path: Path | str, model_hash: str, settings: Settings, passes=None, solver=None):
         self._path, self._model_hash = path, model_hash
         self.name, self.passes, self._settings = name, dict(passes or {}), settings
-        self._solver = solver or settings.solver
+        self.solver = solver or settings.solver
         self._model = runtime.Model(path)
         self._times = np.arange(settings.samples) / settings.sampling_rate
         self._outputs = [*settings.currents, settings.speed, settings.angle]
@@ -77,7 +78,7 @@ class ModelPlant:
             raise AnalysisError(f"{settings.path}: model {name} has no variable {', nor '.join(missing)}")
         self._require_parameters([settings.fault.parameter, *settings.own_parameters])
         runtime_hash = hashlib.sha256(runtime_library_path().read_bytes()).hexdigest()
-        self.hash = f"{model_hash} {runtime_hash[:16]} {self._solver}"
+        self.hash = f"{model_hash} {runtime_hash[:16]} {self.solver}"
         self.equations = [
             SourceEquation(e.text, e.origin, f"{Path(e.file).name}:{e.line}") for e in self._model.equations
         ]
@@ -101,7 +102,7 @@ class ModelPlant:
             settings = self._settings
             self._of_thread.session = runtime.Session(
                 self._model,
-                solver=self._solver,
+                solver=self.solver,
                 rtol=settings.relative_tolerance,
                 atol=settings.absolute_tolerance,
                 outputs=self._outputs,

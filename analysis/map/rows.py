@@ -97,7 +97,7 @@ class RowStore:
     def save(self, row: Row) -> None:
         text = json.dumps({name: value for name, value in asdict(row).items() if name != "traces"})
         path = self._path(row.severity)
-        with whole_file(path) as partial:
+        with whole_file(path, lasting=False) as partial:  # what is damaged is seen by its digest
             np.savez(partial, fields=text, digest=_digest(path.stem, text, row.traces), **row.traces)
 
     def prune(self, severities: list[float]) -> None:

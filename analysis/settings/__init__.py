@@ -96,6 +96,11 @@ class Settings:
         return _Table(f"{self.path}: {name}", self.raw[name])
 
     @property
+    def quick_solver(self) -> str:
+        """Of tests that are solved by the hundred, or while somebody waits: the assessment's, where it names one."""
+        return self.raw.get("assessment", {}).get("solver", self.solver)
+
+    @property
     def own_parameters(self) -> dict[str, float]:
         """Parameters of the model that every test has, other than declared."""
         actuator = self.raw["actuator"]

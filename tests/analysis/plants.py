@@ -15,6 +15,7 @@ class ReferencePlant:
     """The hand-written simulation; counts its runs, and stops at the severity `fails_at` with `error`."""
 
     name = "reference actuator"
+    solver = "rk4"
 
     def __init__(self, hash: str = "1", fails_at: float | None = None, error: BaseException | None = None):
         self.hash, self.runs = hash, []

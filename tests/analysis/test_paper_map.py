@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+import json
+
 import numpy as np
 import pytest
 
+import lacuna
 from lacuna.analysis.map.maps import build_map
 from lacuna.analysis.map.plant import ModelPlant
 from lacuna.analysis.settings import load_settings
@@ -63,3 +67,18 @@ def test_features_equal_those_of_an_independent_simulation(plant, settings, zeta
     np.testing.assert_allclose(found.rms, expected.rms, rtol=1e-6)
     np.testing.assert_allclose(found.harmonic, expected.harmonic, atol=1e-6)
     assert found.speed_mean == pytest.approx(expected.speed_mean, rel=1e-6)
+
+
+def test_who_waits_for_the_map_sees_the_same_one_by_the_faster_solver(built, settings, tmp_path):
+    first, whole = lacuna.growing_map(out=tmp_path)
+    assert (len(first), len(whole)) == (11, 51) and set(first.severities) <= set(whole.severities)
+    for channel, feature in enumerate(("rms_a", "rms_b", "rms_c")):
+        assert whole[feature] == pytest.approx([row.rms[channel] for row in built.rows], rel=1e-6)
+    assert np.array_equal(whole["peak_a_hz"], [row.peak_hz[0] for row in built.rows])
+    written = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
+    assert (built.summary["solver"]["name"], written["solver"]["name"]) == ("ida", "dopri5")
+
+
+def test_settings_that_name_no_faster_solver_have_the_one_they_name(settings):
+    alone = {name: table for name, table in settings.raw.items() if name != "assessment"}
+    assert (settings.quick_solver, replace(settings, raw=alone).quick_solver) == ("dopri5", "ida")
