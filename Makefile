@@ -24,7 +24,7 @@ COVERED ?= tests
 FUZZ_TARGETS := stream table inputs
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*' ':!:fmi/standard/*')
 
-.PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined prognosis tolerance-study \
+.PHONY: help setup build test maps compare explain assess bench speed check fuzz prove degrade robustness combined prognosis tolerance-study \
         prove-machines prove-experiments figures docs wheel vsix examples belts hybrid automata swings units msl unchanged compliance format style lint analyze sanitize sanitize-models threads coverage sundials7 ctest pytest lock clean
 
 help: ## Print this list
@@ -89,6 +89,9 @@ degrade: setup ## The diagnosis with more noise, shorter recordings and no curre
 
 bench: setup ## Times and errors against hand-written programs, into out/bench/
 	@$(PYTHON) -m bench --out $(OUT)/bench
+
+speed: setup ## What README says of speed, measured (some minutes), writes docs/speed.md
+	@$(PYTHON) -m bench.speed
 
 real-machines: setup ## Explain the recordings of real machines, writes docs/real-machines.md and its figures
 	@$(PYTHON) -m bench.real_machines
