@@ -49,7 +49,7 @@ static bool update_followers(rt_session *s) {
   for (int r = 0; r < s->d->n_rel; r++) {
     int kind = s->d->relations[r].kind;
     if (kind == MDL_OF_TIME) s->data.rel[r] = s->rel_trial[r];
-    if (kind == MDL_FOLLOWER) update_relation(s, r, rt_hysteresis(s, r));
+    if (kind & MDL_FOLLOWER && !(kind & MDL_OF_TIME)) update_relation(s, r, rt_hysteresis(s, r));
     changed |= s->data.rel[r] != s->rel_trial[r];
   }
   return changed;
