@@ -10,7 +10,8 @@ static bool is_where_it_was(const rt_session *s) {
   const mdl_descriptor *d = s->d;
   const mdl_data *m = &s->data;
   return !memcmp(m->rel, s->rel_seen, (size_t)d->n_rel) && !memcmp(m->when, s->when_seen, (size_t)d->n_when) &&
-         !memcmp(m->d, s->d_seen, (size_t)d->n_d * sizeof *m->d) && !memcmp(m->x, s->x_seen, (size_t)d->n_x * sizeof *m->x);
+         !memcmp(m->d, s->d_seen, (size_t)d->n_d * sizeof *m->d) &&
+         !memcmp(m->x, s->x_seen, (size_t)d->n_x * sizeof *m->x);
 }
 
 static void keep(rt_session *s) {
