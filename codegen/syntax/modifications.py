@@ -7,6 +7,7 @@ from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.expressions import ExpressionParser
 from lacuna.codegen.syntax.lexer import string_value
 
+_CLOSES = {"(": ")", "{": "}", "[": "]"}
 _GRAPHICS = frozenset(
     (
         "Icon", "Diagram", "Placement", "Line", "Dialog", "Text", "choices", "choicesAllMatching", "preferredView",
@@ -213,15 +214,19 @@ class ModificationParser(ExpressionParser):
         return result
 
     def _skip_entry(self) -> None:
-        """Over one entry, to the ',' or ')' that ends it."""
-        level = 0
-        while self.kind != "eof":
-            if self.kind in ("(", "{", "["):
-                level += 1
-            elif self.kind in (")", "}", "]"):
-                if level == 0:
+        """Over one entry, to the ',' or ')' that ends it; a ';' is in none."""
+        opened: list[int] = []
+        while self.kind not in ("eof", ";"):
+            if self.kind in _CLOSES:
+                opened.append(self.at)
+            elif self.kind in _CLOSES.values():
+                if not opened:
                     return
-                level -= 1
-            elif self.kind == "," and level == 0:
+                opened.pop()
+            elif self.kind == "," and not opened:
                 return
             self.at += 1
+        if opened:
+            error = self.unexpected(f"'{_CLOSES[self.kinds[opened[-1]]]}'")
+            error.notes.append((self.span(opened[-1]), "opened here"))
+            raise error

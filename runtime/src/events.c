@@ -49,7 +49,7 @@ static bool update_followers(rt_session *s) {
   for (int r = 0; r < s->d->n_rel; r++) {
     int kind = s->d->relations[r].kind;
     if (kind == MDL_OF_TIME) s->data.rel[r] = s->rel_trial[r];
-    if (kind == MDL_FOLLOWER) update_relation(s, r, rt_hysteresis(s, r));
+    if (kind & MDL_FOLLOWER && !(kind & MDL_OF_TIME)) update_relation(s, r, rt_hysteresis(s, r));
     changed |= s->data.rel[r] != s->rel_trial[r];
   }
   return changed;
@@ -156,8 +156,9 @@ rt_status rt_iterate_event(rt_session *s) {
   s->reinitialised = false;
   memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
   const int most = MAX_PASSES + MAX_SINGLE_PASSES;
-  for (int i = 0; i < most; i++) {
-    bool nowhere = s->futile_events > PATIENCE, other_way = i > MAX_PASSES / 2, singly = i >= MAX_PASSES;
+  int made = 0;
+  for (int i = 0, first = 0; i < most; i++, made++) {
+    bool nowhere = s->futile_events > PATIENCE, other_way = i >= MAX_PASSES / 2, singly = i >= MAX_PASSES;
     int changed = pass(s, nowhere != other_way && !singly ? MAX_SWEEPS : 1, singly);
     if (changed == CIRCLE) {
       rt_append_changed(s, names, sizeof names);
@@ -170,9 +171,12 @@ rt_status rt_iterate_event(rt_session *s) {
     if (!changed && !clear_ticks(s)) return RT_OK;
     if (i >= most - WATCHED_PASSES) rt_append_changed(s, names, sizeof names);
     memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
+    int next = i < MAX_PASSES / 2 ? MAX_PASSES / 2 : MAX_PASSES; /* from which on passes are made in another way */
+    if (!singly && rt_event_circles(s, i + 1 - first)) i = next - 1;
+    if (i == next - 1) first = next;
   }
   return rt_fail(s, RT_EVENT_CYCLE, s->t, -1, NULL,
-                 "the event at time %.9g s does not settle in %d passes; these keep changing: %s", s->t, most,
+                 "the event at time %.9g s does not settle in %d passes; these keep changing: %s", s->t, made,
                  names[0] ? names : "relations between continuous variables");
 }
 

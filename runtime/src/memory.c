@@ -38,7 +38,7 @@ static bool allocate_numbers(rt_session *s) {
   rt_recorder *r = &s->recorder;
   rt_branches *b = &s->branches;
   double **parameters[] = {&m->p, &s->p_run}, **inputs[] = {&m->u},
-         **discrete[] = {&m->d, &m->pre_d, &s->d_swept, &s->d_before, &s->d_after};
+         **discrete[] = {&m->d, &m->pre_d, &s->d_swept, &s->d_before, &s->d_after, &s->d_seen};
   double **unknowns[] = {&s->range, &s->outgrown, &s->modest, &s->atol, &s->y, &s->yp},
          **samples[] = {&s->clock.first, &s->clock.interval};
   double **algebraic[] = {&m->v, &s->v_trial, &s->v_before,  &s->v_end,  &s->v_agreed,
@@ -46,7 +46,7 @@ static bool allocate_numbers(rt_session *s) {
          **dense[] = {&s->dense.c}, **shapes[] = {&s->shape, &s->rates, &s->swing};
   double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial,    &s->xdot_trial, &s->x_before,
                        &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,          &r->xdot,       &s->x_swept,
-                       &s->x_start,     &b->xdot,  &b->xdot_reached,  &b->xdot_tried, &b->x};
+                       &s->x_start,     &b->xdot,  &b->xdot_reached,  &b->xdot_tried, &b->x,          &s->x_seen};
   double **branches[] = {&b->size}, **sides[] = {&b->facing, &b->facing_reached, &b->orientation, &b->aside};
   double **sizes[] = {&s->nominal}, **division[] = {&s->division};
   double **guards[] = {&s->g,        &s->g_previous,    &s->g_low,         &s->g_trial, &s->g_before,
@@ -85,9 +85,9 @@ static bool allocate_numbers(rt_session *s) {
 static bool allocate_flags(rt_session *s) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
-  unsigned char **relations[] = {&m->rel, &s->flip, &s->rel_before, &s->rel_trial, &s->rel_swept};
+  unsigned char **relations[] = {&m->rel, &s->flip, &s->rel_before, &s->rel_trial, &s->rel_swept, &s->rel_seen};
   s->n_flags =
-      COUNT(relations) * (size_t)d->n_rel + (size_t)(d->n_sample + 2 * d->n_when + d->n_divisions + d->n_asserts) + 1;
+      COUNT(relations) * (size_t)d->n_rel + (size_t)(d->n_sample + 3 * d->n_when + d->n_divisions + d->n_asserts) + 1;
   unsigned char *next = s->flags = calloc(s->n_flags, 1);
   if (!next) return false;
   for (size_t i = 0; i < COUNT(relations); i++, next += d->n_rel)
@@ -95,7 +95,8 @@ static bool allocate_flags(rt_session *s) {
   m->tick = next;
   m->when = next + d->n_sample;
   s->when_before = m->when + d->n_when;
-  m->warned = s->when_before + d->n_when;
+  s->when_seen = s->when_before + d->n_when;
+  m->warned = s->when_seen + d->n_when;
   s->division_sign = (signed char *)m->warned + d->n_asserts;
   return true;
 }

@@ -78,3 +78,22 @@ def test_a_circle_that_translation_sees_is_refused(tmp_path: Path) -> None:
     with pytest.raises(Diagnostic, match="the value that the when-clause gives n follows itself") as refused:
         compiled(tmp_path, EXPLICIT)
     assert (refused.value.code, refused.value.span.line) == ("S013", 6)
+
+
+TURNING = """model Turning
+  Real x(start=0, fixed=true);
+  Boolean b(start=false, fixed=true);
+equation
+  der(x) = 1;
+  b = x > 1 and not pre(b);
+end Turning;
+"""
+
+
+def test_passes_that_go_round_are_not_made_again_and_again(tmp_path: Path) -> None:
+    """b is true and false in turn, whichever way passes are made: each way is left when it has come to where it was,
+    but the last, of 200 passes, which has to be sure."""
+    run = runtime.simulate(compiled(tmp_path, TURNING), stop=2.0)
+    assert run.failure is not None and run.failure.time == pytest.approx(1)
+    assert "these keep changing: b" in run.failure.message
+    assert run.counters["event_passes"] <= 2 + 2 * 8 + 200

@@ -1,7 +1,7 @@
-"""Relations that compare what events set, without deciding about it: `on = x > limit` with a limit that an event
-sets. All equations hold together at an event (Modelica 3.6, 8.5 and B.1), so what else the event does has to
-find them as they are with what is set, not as they were on arrival. Relations that what they compare follows in turn
-(modes of friction, diodes) are none of these: they are iterated from one pass to the next."""
+"""Relations that compare what events set, or what equations make of it, without deciding about it: `on = e > limit`
+with `e = x - y` and a y that it sets. All equations hold together at an event (Modelica 3.6, 8.5 and B.1), so what
+else the event does has to find them as they are with what is set, not as they were on arrival. Relations that what they
+compare follows in turn (modes of friction, diodes) are none of these: they are iterated from one pass to the next."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from lacuna.codegen.symbolic.rewrite import assigned
 
 def followers(steps: Sequence[EventStep], explicit: Sequence[Step], relations: Sequence[Relation]) -> frozenset[int]:
     """Numbers of such relations that something with a memory reads: a when-clause, an algorithm, what reads pre(n).
-    What else there is follows them in the next pass; so do those that compare what is set through other equations."""
+    What else there is follows them in the next pass."""
     made = [(unknowns_of(s), expressions_of(s)) for s in explicit]
     first_relation = len(made)
     made += [([], [r.left, r.right]) for r in relations]
@@ -42,8 +42,7 @@ def followers(steps: Sequence[EventStep], explicit: Sequence[Step], relations: S
         if any(k in decide for k in component):
             decide.update(n for k in component for n in needs[k])
     found = range(first_relation, first_part)
-    directly = {k for k in found if not any(n in follow and n < first_part for n in needs[k])}
-    return frozenset(k - first_relation for k in directly & follow & decide & alone)
+    return frozenset(k - first_relation for k in set(found) & follow & decide & alone)
 
 
 def _parts(step: EventStep) -> list[EventStep]:

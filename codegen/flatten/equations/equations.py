@@ -175,7 +175,7 @@ def _check_before(equations: list[flat.Equation], assigned: set[str], context: C
                 hint = "use it inside of when, or keep the value in a discrete variable"
                 raise Diagnostic("R052", f"{to_text(n)}: {name} varies continuously", e.span, hint)
             if n.op == "der" and name in assigned:
-                hint = "it is constant between events"
+                hint = f"a when-clause sets {name}, which then is constant between events; a state jumps by reinit"
                 raise Diagnostic("R054", f"the derivative of the discrete {name}", e.span, hint)
 
 

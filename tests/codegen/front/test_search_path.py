@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+import lacuna
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten import flatten
 from lacuna.codegen.library.classes import Library
@@ -137,3 +138,21 @@ def test_a_model_file_that_is_none(place: Path, name: str, code: str) -> None:
         Library().find(name)
     assert refused.value.code == code
     assert refused.value.hint
+
+
+ONE_FILE = """package Tabs
+  model Sched
+    parameter String f = Modelica.Utilities.Files.loadResource("modelica://Tabs/sched.txt");
+    Modelica.Blocks.Sources.CombiTimeTable t(tableOnFile=true, tableName="s", fileName=f);
+  end Sched;
+end Tabs;
+"""
+
+
+def test_data_of_a_package_in_one_file_lie_in_the_folder_of_that_file(tmp_path: Path, shared: Path) -> None:
+    if not (shared / "msl" / "Modelica").is_dir():
+        pytest.skip("the Modelica Standard Library is not there")
+    (tmp_path / "Tabs.mo").write_text(ONE_FILE, encoding="utf-8")
+    (tmp_path / "sched.txt").write_text("#1\ndouble s(2,2)\n0 1\n2 5\n", encoding="utf-8")
+    result = lacuna.load(f"{tmp_path / 'Tabs.mo'}:Tabs.Sched", libraries=[str(shared / "msl")]).simulate(stop=1.0)
+    assert result["t.y[1]"][-1] == pytest.approx(3)

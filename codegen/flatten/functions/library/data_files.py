@@ -59,6 +59,8 @@ def _package_folder(uri: str, context: Context, span: Span) -> tuple[Path, str]:
     for part in package.split("."):
         cls = context.library.member(cls, part) if cls is not None else None
     folder = context.library.folder_of(cls) if cls is not None else None
+    if cls is not None and folder is None:  # a package in one file
+        folder = Path(cls.span.file).resolve().parent
     if folder is None:
         raise Diagnostic("F040", f"{uri}: there is no package {package}", span, "name a package that is loaded")
     return folder, rest
