@@ -140,9 +140,8 @@ struct rt_session {
   double *x_start;                        /* what the states begin with: declared, or given by the caller */
   double *x_swept, *d_swept;              /* states after a sweep of an event, discrete variables before it */
   unsigned char *rel_swept, *when_before; /* relations before a sweep, when conditions before its pass */
-  double *x_seen, *d_seen;                /* what an earlier pass of an event has led to (cycle.c), */
-  unsigned char *rel_seen, *when_seen;    /* and its modes */
-  unsigned char *rel_before, *rel_trial;  /* [n_rel] */
+  double *x_seen, *d_seen;                /* what an earlier pass of an event has led to (cycle.c), and its modes */
+  unsigned char *rel_seen, *when_seen, *rel_before, *rel_trial; /* [n_rel], [n_when], [n_rel] */
   bool reinitialised, shaped; /* the last event did; shape is of the last step, with the present relations */
   bool far, quiet;            /* no affine guard comes near zero in the last step (reach.c), or crosses */
   bool all_affine;            /* all guards of state relations are affine */
@@ -288,11 +287,10 @@ rt_status rt_advance(rt_session *s);
 rt_status rt_happen(rt_session *s);
 rt_status rt_check_asserts(rt_session *s);
 
-/* settings.c, events.c, initialise.c */
+/* settings.c, events.c, cycle.c, initialise.c */
 void rt_session_declared(rt_session *s); /* every parameter back to its declared value */
-rt_status rt_event(rt_session *s);
-rt_status rt_iterate_event(rt_session *s);
-bool rt_event_circles(rt_session *s, int k); /* cycle.c */
+rt_status rt_event(rt_session *s), rt_iterate_event(rt_session *s);
+bool rt_event_circles(rt_session *s, int k);
 rt_status rt_initialise(rt_session *s);
 
 /* record.c */
