@@ -22,7 +22,7 @@ static void keep(rt_session *s) {
   memcpy(s->x_seen, m->x, (size_t)s->d->n_x * sizeof *m->x);
 }
 
-/* Whether pass k (1, 2, ...) of one kind has come to where an earlier one was. */
+/* Whether pass k (1, 2, ...) of one kind, with the same ticks, has come to where an earlier one was. */
 bool rt_event_circles(rt_session *s, int k) {
   if (k > 1 && is_where_it_was(s)) return true;
   if ((k & (k - 1)) == 0) keep(s);

@@ -47,9 +47,9 @@ static bool update_followers(rt_session *s) {
   memcpy(s->rel_trial, s->data.rel, (size_t)s->d->n_rel);
   (void)s->d->time_relations(&s->data, s->t);
   for (int r = 0; r < s->d->n_rel; r++) {
-    int kind = s->d->relations[r].kind;
-    if (kind == MDL_OF_TIME) s->data.rel[r] = s->rel_trial[r];
-    if (kind & MDL_FOLLOWER && !(kind & MDL_OF_TIME)) update_relation(s, r, rt_hysteresis(s, r));
+    bool timed = s->d->relations[r].kind & MDL_OF_TIME, follows = s->d->relations[r].kind & MDL_FOLLOWER;
+    if (timed && !follows) s->data.rel[r] = s->rel_trial[r];
+    if (!timed && follows) update_relation(s, r, rt_hysteresis(s, r));
     changed |= s->data.rel[r] != s->rel_trial[r];
   }
   return changed;
@@ -172,8 +172,8 @@ rt_status rt_iterate_event(rt_session *s) {
     if (i >= most - WATCHED_PASSES) rt_append_changed(s, names, sizeof names);
     memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
     int next = i < MAX_PASSES / 2 ? MAX_PASSES / 2 : MAX_PASSES; /* from which on passes are made in another way */
-    if (!singly && rt_event_circles(s, i + 1 - first)) i = next - 1;
-    if (i == next - 1) first = next;
+    if (changed && !singly && rt_event_circles(s, i + 1 - first)) i = next - 1;
+    if (!changed || i == next - 1) first = i + 1; /* without ticks, or another way, passes lead elsewhere */
   }
   return rt_fail(s, RT_EVENT_CYCLE, s->t, -1, NULL,
                  "the event at time %.9g s does not settle in %d passes; these keep changing: %s", s->t, made,
