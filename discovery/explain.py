@@ -20,6 +20,7 @@ from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.so_far import telling
 from lacuna.discovery.fit.solver.time_limit import within
+from lacuna.discovery.naming.comparison import is_better
 from lacuna.discovery.naming.judge import judge_file
 from lacuna.discovery.steps import add_effort, add_findings, add_fit, add_location, add_scatter, opened
 from lacuna.written import write_whole
@@ -45,7 +46,7 @@ def explain(
     if not is_noise(result.base):
         add_location(result, progress)
         clock.done("locate")
-    with within(limit, begun), traced() as result.trace, telling(progress) as tell:
+    with within(limit, begun), traced() as result.trace, telling(progress, is_better) as tell:
         add_findings(result, library, tell)
         add_scatter(result, tell)
     clock.done("name")

@@ -111,6 +111,13 @@ def price(parameters: int, base: Fit, correlation: dict[str, float]) -> float:
     return parameters * float(np.log(max(informative, 2.0)))
 
 
+def is_better(one: Fit, other: Fit) -> bool:
+    """By deviance and price of all that is free in each."""
+    correlation = common_correlation((one, other))
+    paid = [fit.deviance(correlation) + price(len(fit.estimate.free), one, correlation) for fit in (one, other)]
+    return paid[0] < paid[1]
+
+
 def score(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> float:
     """Deviance, less the base's, with the price of its parameters and of having been picked among many."""
     paid = candidate.fit.deviance(correlation) + price(len(candidate.free), base, correlation) + 2 * candidate.pick

@@ -5,12 +5,10 @@ Every fit notes where it ends, be it of an effect, a law, or several at once; ou
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from threading import Lock
 from typing import Any, Protocol, TypeVar
-
-import numpy as np
 
 Progress = Callable[[str], None]
 
@@ -19,13 +17,9 @@ class Fitted(Protocol):
     """What is asked of a fit."""
 
     machine: Any
-    estimate: Any
 
     @property
     def point(self) -> dict[str, float]: ...
-    def deviance(self, correlation: Mapping[str, float] | None = None) -> float: ...
-    def correlation(self) -> dict[str, float]: ...
-    def counts(self) -> dict[str, float]: ...
 
 
 Ended = TypeVar("Ended", bound=Fitted | None)
@@ -38,8 +32,8 @@ class SoFar:
     own, and that of the kind that was fitted last is told.
     """
 
-    def __init__(self, progress: Progress) -> None:
-        self._progress, self._lock = progress, Lock()
+    def __init__(self, progress: Progress, is_better: Callable[[Any, Any], bool]) -> None:
+        self._progress, self._is_better, self._lock = progress, is_better, Lock()
         self._text, self._best = "", ""
         self._kept: dict[tuple[int, int], tuple[Fitted, str]] = {}  # by kind; a fit keeps the case, which that names
 
@@ -54,7 +48,7 @@ class SoFar:
             return
         kind = id(found.machine.case), len(amendment.trackers)
         with self._lock:
-            if kind not in self._kept or is_better(found, self._kept[kind][0]):
+            if kind not in self._kept or self._is_better(found, self._kept[kind][0]):
                 self._kept[kind] = found, " and ".join(a.said(found.point) for a in amendment.attachments)
             if self._kept[kind][1] != self._best:
                 self._best = self._kept[kind][1]
@@ -64,25 +58,14 @@ class SoFar:
         self._progress(self._text + (f"; best so far {self._best}" if self._best else ""))
 
 
-def is_better(one: Fitted, other: Fitted) -> bool:
-    """By deviance and ln n for each parameter, n samples that are independent in the one that leaves less."""
-    correlation = min(one, other, key=lambda f: f.deviance()).correlation()
-    samples = sum(count / correlation[column] for column, count in one.counts().items())
-
-    def cost(found: Fitted) -> float:
-        return found.deviance(correlation) + len(found.estimate.free) * float(np.log(max(samples, 2.0)))
-
-    return cost(one) < cost(other)
-
-
 _so_far: SoFar | None = None
 
 
 @contextmanager
-def telling(progress: Progress) -> Iterator[SoFar]:
-    """`progress` told of the best hypothesis, too, among what is fitted inside."""
+def telling(progress: Progress, is_better: Callable[[Any, Any], bool]) -> Iterator[SoFar]:
+    """`progress` told of the best hypothesis, too, among what is fitted inside; `is_better` compares two fits."""
     global _so_far
-    before, _so_far = _so_far, SoFar(progress)
+    before, _so_far = _so_far, SoFar(progress, is_better)
     try:
         yield _so_far
     finally:

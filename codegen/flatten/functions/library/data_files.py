@@ -53,17 +53,14 @@ def folder_of(uri: str, context: Context, span: Span) -> Path:
 
 
 def _package_folder(uri: str, context: Context, span: Span) -> tuple[Path, str]:
-    """The folder of the package of modelica://Package/rest, and the rest. Raises F040."""
+    """The folder of the package of modelica://Package/rest, or of the file that it is in, and the rest. Raises F040."""
     package, _, rest = uri.removeprefix(_URI).partition("/")
     cls = context.library.root
     for part in package.split("."):
         cls = context.library.member(cls, part) if cls is not None else None
-    folder = context.library.folder_of(cls) if cls is not None else None
-    if cls is not None and folder is None:  # a package in one file
-        folder = Path(cls.span.file).resolve().parent
-    if folder is None:
+    if cls is None:
         raise Diagnostic("F040", f"{uri}: there is no package {package}", span, "name a package that is loaded")
-    return folder, rest
+    return context.library.folder_of(cls) or Path(cls.span.file).resolve().parent, rest
 
 
 def text_of(path: Path, context: Context, span: Span) -> str:
