@@ -86,6 +86,10 @@ class CLatent(ctypes.Structure):
     ]
 
 
+class CLatentGains(ctypes.Structure):
+    _fields_ = [(name, DOUBLES) for name in ("row", "gain", "deviation", "drive", "keep")]
+
+
 def library_path() -> Path:
     """Where liblacuna_analysis.so is (`lacuna.native`)."""
     return native_library("lacuna_analysis")
@@ -95,6 +99,7 @@ def library_path() -> Path:
 _ADDRESS, _SIZE, _TEXT = ctypes.c_void_p, ctypes.c_size_t, ctypes.c_char_p
 _MESSAGE = [_TEXT, _SIZE]
 _LATENT = [ctypes.POINTER(CLinearModel), ctypes.POINTER(CLatent)]
+_GAINS = [ctypes.POINTER(CLinearModel), ctypes.POINTER(CLatentGains)]
 _FUNCTIONS = {
     "lacuna_chain_new": (_ADDRESS, [ctypes.POINTER(CSettings), *_MESSAGE]),
     "lacuna_chain_free": (None, [_ADDRESS]),
@@ -123,8 +128,9 @@ _FUNCTIONS = {
     ),
     "lacuna_lognormals_reached": (None, [*[DOUBLES] * 3, _SIZE, _SIZE, DOUBLES, _SIZE, DOUBLES]),
     "lacuna_latent_evidence": (ctypes.c_int, [*_LATENT, DOUBLES, _ADDRESS, _SIZE, DOUBLES, DOUBLES]),
-    "lacuna_latent_whiten": (ctypes.c_int, [*_LATENT, DOUBLES, _ADDRESS, _SIZE]),
-    "lacuna_latent_whiten_transposed": (ctypes.c_int, [*_LATENT, DOUBLES, _ADDRESS, _SIZE]),
+    "lacuna_latent_filter": (ctypes.c_int, [*_LATENT, _ADDRESS, ctypes.POINTER(CLatentGains)]),
+    "lacuna_latent_whiten": (None, [*_GAINS, _SIZE, DOUBLES, _ADDRESS, _SIZE]),
+    "lacuna_latent_whiten_transposed": (None, [*_GAINS, _SIZE, DOUBLES, _ADDRESS, _SIZE]),
     "lacuna_latent_smooth": (ctypes.c_int, [*_LATENT, DOUBLES, _ADDRESS, DOUBLES, DOUBLES]),
     "lacuna_linear_response": (
         None,

@@ -34,6 +34,16 @@ struct Hypotheses {
   lacuna_latent latent() const { return {size.size(), 1, column.data(), sensor.data(), size.data(), time.data()}; }
 };
 
+/// What the filter of one hypothesis does, in arrays of its own.
+struct Gains {
+  std::array<double, 2> row{}, gain{}, deviation{}, keep{};
+  lacuna_latent_gains gains{row.data(), gain.data(), deviation.data(), nullptr, keep.data()};
+  int failed;
+
+  Gains(const Pair &pair, const lacuna_latent &latent)
+      : failed(lacuna_latent_filter(&pair.model, &latent, pair.seen.data(), &gains)) {}
+};
+
 } // namespace
 
 TEST(Latent, EvidenceIsThatOfTheDenseCovariance) {
@@ -58,11 +68,36 @@ TEST(Latent, WhitenedReadingsAreTheSumOfSquares) {
   const Pair pair;
   const Hypotheses hypotheses(1);
   const lacuna_latent latent = hypotheses.latent();
+  const Gains gains(pair, latent);
+  ASSERT_EQ(gains.failed, 0);
   auto white = pair.readings;
-  ASSERT_EQ(lacuna_latent_whiten(&pair.model, &latent, white.data(), pair.seen.data(), 1), 0);
+  lacuna_latent_whiten(&pair.model, &gains.gains, 1, white.data(), pair.seen.data(), 1);
   const double a = Pair::own(1), b = Pair::shared(1, 1);
   EXPECT_NEAR(white[0], 0.7 / std::sqrt(a), 1e-14);
   EXPECT_NEAR(white[1], (-0.2 - b / a * 0.7) / std::sqrt(a - b * b / a), 1e-13);
+}
+
+TEST(Latent, ColumnsAreWhitenedAlikeHoweverManyThereAre) {
+  Pair pair;
+  const Hypotheses hypotheses(1);
+  const Gains gains(pair, hypotheses.latent());
+  for (const std::size_t count : {std::size_t{1}, std::size_t{16}, std::size_t{37}}) {
+    std::vector<double> data(2 * count), turned(2 * count);
+    for (std::size_t j = 0; j < count; ++j) {
+      data[j] = static_cast<double>(j + 1) * pair.readings[0];
+      data[count + j] = static_cast<double>(j + 1) * pair.readings[1];
+      turned[j] = 0.4;
+      turned[count + j] = -1.1;
+    }
+    lacuna_latent_whiten(&pair.model, &gains.gains, 1, data.data(), pair.seen.data(), count);
+    lacuna_latent_whiten_transposed(&pair.model, &gains.gains, 1, turned.data(), pair.seen.data(), count);
+    for (std::size_t j = 0; j < count; ++j) {
+      const double product = 0.4 * data[j] - 1.1 * data[count + j];
+      const double same = pair.readings[0] * turned[j] + pair.readings[1] * turned[count + j];
+      EXPECT_NEAR(data[j], static_cast<double>(j + 1) * data[0], 1e-13 * std::abs(data[j]));
+      EXPECT_NEAR(product, static_cast<double>(j + 1) * same, 1e-12 * std::abs(product));
+    }
+  }
 }
 
 TEST(Latent, ForceIsItsMeanGivenTheReadings) {
@@ -90,7 +125,7 @@ TEST(Latent, AVarianceThatIsNoNumberIsSaid) {
   std::array<double, 2> mean{}, deviation{};
   double gram = 0, log = 0;
   EXPECT_EQ(lacuna_latent_evidence(&pair.model, &latent, readings.data(), pair.seen.data(), 1, &gram, &log), 1);
-  EXPECT_EQ(lacuna_latent_whiten(&pair.model, &latent, readings.data(), pair.seen.data(), 1), 1);
+  EXPECT_EQ(Gains(pair, latent).failed, 1);
   EXPECT_EQ(
       lacuna_latent_smooth(&pair.model, &latent, readings.data(), pair.seen.data(), mean.data(), deviation.data()), 1);
 }

@@ -147,14 +147,25 @@ typedef struct {
 int lacuna_latent_evidence(const lacuna_linear_model *model, const lacuna_latent *latent, const double *data,
                            const unsigned char *seen, size_t columns, double *gram, double *log_determinant);
 
-/* The same of the first hypothesis, the whitened columns in the place of `data`. */
-int lacuna_latent_whiten(const lacuna_linear_model *model, const lacuna_latent *latent, double *data,
-                         const unsigned char *seen, size_t columns);
+/* What the filter of one hypothesis does at each reading and from each sample to the next: the same to every column. */
+typedef struct {
+  double *row, *gain; /* [samples][outputs][states, then forces] coefficients in a reading; shares of its innovation */
+  double *deviation;  /* [samples][outputs] of the innovations; 1 where none is seen */
+  double *drive;      /* [samples - 1][states][forces] */
+  double *keep;       /* [samples - 1][forces] */
+} lacuna_latent_gains;
 
-/* The transpose of that, as a matrix of readings by readings, times columns of whitened readings, in the place of
- * `data`; zero where not `seen`. */
-int lacuna_latent_whiten_transposed(const lacuna_linear_model *model, const lacuna_latent *latent, double *data,
-                                    const unsigned char *seen, size_t columns);
+/* Of the first hypothesis. Not zero: a variance is no positive number. */
+int lacuna_latent_filter(const lacuna_linear_model *model, const lacuna_latent *latent, const unsigned char *seen,
+                         lacuna_latent_gains *gains);
+
+/* Columns of readings, as above, whitened in their place; zero where not `seen`. */
+void lacuna_latent_whiten(const lacuna_linear_model *model, const lacuna_latent_gains *gains, size_t forces,
+                          double *data, const unsigned char *seen, size_t columns);
+
+/* The transpose of that, as a matrix of readings by readings. */
+void lacuna_latent_whiten_transposed(const lacuna_linear_model *model, const lacuna_latent_gains *gains, size_t forces,
+                                     double *data, const unsigned char *seen, size_t columns);
 
 /* Mean and standard deviation [forces][samples] of the forces of the first hypothesis, given `readings`
  * [samples][outputs]. */

@@ -1,4 +1,4 @@
-// Smoother of unknown forces, and the transpose of the whitening filter: equations and sources in
+// Smoother of unknown forces: equations and sources in
 // discovery/efforts/latent/smoother.py.
 #include <algorithm>
 #include <cmath>
@@ -62,18 +62,6 @@ std::vector<double> transition(const lacuna_linear_model &m, const lacuna_latent
   return result;
 }
 
-/// `pull` [w][columns] taken back over a step.
-void back_over(const std::vector<double> &step, std::vector<double> &pull, size_t columns) {
-  const size_t w = pull.size() / columns;
-  std::vector<double> from(pull.size());
-  for (size_t l = 0; l < w; ++l)
-    for (size_t i = 0; i < w; ++i)
-      if (const double by = step[l * w + i]; by != 0)
-        for (size_t j = 0; j < columns; ++j)
-          from[i * columns + j] += by * pull[l * columns + j];
-  pull.swap(from);
-}
-
 /// r and N taken back over a step.
 void back_over(const std::vector<double> &step, std::vector<double> &pull, std::vector<double> &weight) {
   const size_t w = pull.size();
@@ -128,42 +116,6 @@ int lacuna_latent_smooth(const lacuna_linear_model *model, const lacuna_latent *
       }
       mean[j * n + k] = value;
       deviation[j * n + k] = std::sqrt(std::max(variance, 0.0));
-    }
-  }
-  return 0;
-}
-
-int lacuna_latent_whiten_transposed(const lacuna_linear_model *model, const lacuna_latent *latent, double *data,
-                                    const unsigned char *seen, size_t columns) {
-  const lacuna_linear_model &m = *model;
-  lacuna::Filter<1> filter(m, *latent, 0, 1);
-  const double none = 0;
-  const size_t w = filter.w;
-  std::vector<Reading> taken(m.samples * m.outputs);
-  for (size_t k = 0; k < m.samples; ++k) {
-    for (size_t o = 0; o < m.outputs; ++o) {
-      if (!seen[k * m.outputs + o]) continue;
-      filter.look(k, o);
-      if (!filter.read(o, &none)) return 1;
-      taken[k * m.outputs + o] = reading(filter, k);
-    }
-    if (k + 1 < m.samples) filter.move(k);
-  }
-  std::vector<double> pull(w * columns);
-  for (size_t k = m.samples; k-- > 0;) {
-    if (k + 1 < m.samples) back_over(transition(m, *latent, k), pull, columns);
-    for (size_t o = m.outputs; o-- > 0;) {
-      double *row = data + (k * m.outputs + o) * columns;
-      const Reading &read = taken[k * m.outputs + o];
-      const double deviation = std::sqrt(read.variance);
-      for (size_t j = 0; j < columns; ++j)
-        row[j] = seen[k * m.outputs + o] ? row[j] / deviation : 0.0;
-      for (size_t i = 0; i < read.row.size(); ++i)
-        for (size_t j = 0; j < columns; ++j)
-          row[j] -= read.gain[i] * pull[i * columns + j];
-      for (size_t i = 0; i < read.row.size(); ++i)
-        for (size_t j = 0; j < columns; ++j)
-          pull[i * columns + j] += read.row[i] * row[j];
     }
   }
   return 0;

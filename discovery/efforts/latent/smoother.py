@@ -10,66 +10,81 @@ The arithmetic is in C++ (analysis/native/src/latent.cpp).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from lacuna.analysis.spectra.library import library, pointer
+from lacuna.analysis.spectra.library import CLatentGains, library, pointer
 from lacuna.discovery.efforts.latent.chains import Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import products
 from lacuna.discovery.fit.solver.side_by_side import side_by_side
 
 
 class Whitener:
-    """The filter of one hypothesis on some recordings: whitens any columns of outputs."""
+    """The filter of one hypothesis on some recordings: whitens any columns of outputs. Raises LinAlgError where what an
+    effort may do is beyond numbers."""
 
     def __init__(self, pieces: Sequence[Piece], latent: Latent) -> None:
         self.pieces, self.latent = pieces, latent
+        self._gains = side_by_side(lambda piece: _Gains(piece, latent), pieces)
 
     def __call__(self, columns: Sequence[np.ndarray]) -> np.ndarray:
         """(rows, j): `innovations`, one recording after the other; rows of readings alone."""
-        white = self.innovations(columns)
+        white = side_by_side(lambda p: p[0].whitened(p[1]), list(zip(self._gains, columns, strict=True)))
         return np.concatenate([part[p.seen] for p, part in zip(self.pieces, white, strict=True)])
 
     def innovations(self, columns: Sequence[np.ndarray]) -> list[np.ndarray]:
         """(n, y, j) of columns (n, y, j) on each recording, in units of their standard deviations; NaN where there is
         no reading."""
-        forces, _forces = self.latent.of_library()
-
-        def of_one(pair: tuple[Piece, np.ndarray]) -> np.ndarray:
-            piece, part = pair
-            seen = np.ascontiguousarray(piece.seen)
-            white = np.where(seen[:, :, None], part, np.nan)
-            model = piece.along.model(piece.noise, piece.start)
-            _checked(library().lacuna_latent_whiten(model, forces, pointer(white), seen.ctypes.data, white.shape[2]))
-            return white
-
-        return side_by_side(of_one, list(zip(self.pieces, columns, strict=True)))
+        white = [gains.whitened(part) for gains, part in zip(self._gains, columns, strict=True)]
+        return [np.where(p.seen[:, :, None], part, np.nan) for p, part in zip(self.pieces, white, strict=True)]
 
     def transposed(self, rows: np.ndarray) -> list[np.ndarray]:
         """(n, y, j) on each recording: readings whose products with any others are those of whitened rows (rows, j)
         with those others whitened."""
-        forces, _forces = self.latent.of_library()
         ends = np.cumsum([p.seen.sum() for p in self.pieces])
-
-        def of_one(pair: tuple[Piece, np.ndarray]) -> np.ndarray:
-            piece, own = pair
-            seen = np.ascontiguousarray(piece.seen)
-            data = np.zeros((*seen.shape, rows.shape[1]))
-            data[seen] = own
-            model = piece.along.model(piece.noise, piece.start)
-            failed = library().lacuna_latent_whiten_transposed(
-                model, forces, pointer(data), seen.ctypes.data, rows.shape[1]
-            )
-            _checked(failed)
-            return data
-
-        return side_by_side(of_one, list(zip(self.pieces, np.split(rows[: ends[-1]], ends[:-1]), strict=True)))
+        parts = np.split(rows[: ends[-1]], ends[:-1])
+        return side_by_side(lambda p: p[0].transposed(p[1]), list(zip(self._gains, parts, strict=True)))
 
     @property
     def logdet(self) -> float:
         """Logarithm of the determinant of the innovations' covariance, in units of the noise."""
         return float(products(self.pieces, self.latent)[1][0])
+
+
+class _Gains:
+    """What the filter does to every column of readings of one recording."""
+
+    def __init__(self, piece: Piece, latent: Latent) -> None:
+        forces, _forces = latent.of_library()
+        samples, outputs, states = piece.along.read.shape
+        self.seen, self.forces = np.ascontiguousarray(piece.seen), forces.forces
+        self._model = piece.along.model(piece.noise, piece.start)
+        row, gain = np.zeros((2, samples, outputs, states + self.forces))
+        rest = (
+            np.zeros((samples, outputs)),
+            np.zeros((samples, states, self.forces)),
+            np.zeros((samples, self.forces)),
+        )
+        self._kept = piece, (row, gain, *rest)  # what is borrowed of both lasts as long
+        self._gains = CLatentGains(*map(pointer, self._kept[1]))
+        _checked(library().lacuna_latent_filter(self._model, forces, self.seen.ctypes.data, self._gains))
+
+    def whitened(self, columns: np.ndarray) -> np.ndarray:
+        """(n, y, j) of columns (n, y, j); zero where there is no reading."""
+        data = np.array(columns, dtype=float, order="C")
+        self._run(library().lacuna_latent_whiten, data)
+        return data
+
+    def transposed(self, rows: np.ndarray) -> np.ndarray:
+        """(n, y, j) of whitened rows (readings, j)."""
+        data = np.zeros((*self.seen.shape, rows.shape[1]))
+        data[self.seen] = rows
+        self._run(library().lacuna_latent_whiten_transposed, data)
+        return data
+
+    def _run(self, function: Callable[..., None], data: np.ndarray) -> None:
+        function(self._model, self._gains, self.forces, pointer(data), self.seen.ctypes.data, data.shape[2])
 
 
 def courses(pieces: Sequence[Piece], latent: Latent, mean: np.ndarray) -> list[np.ndarray]:

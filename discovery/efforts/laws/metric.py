@@ -25,6 +25,15 @@ class Bases:
     triangles: list[np.ndarray]  # (size, terms) that each is multiplied by
 
 
+@dataclass
+class Kept:
+    """Of each group."""
+
+    triangles: list[np.ndarray]  # (terms, terms): its columns are a basis times this
+    onto: list[np.ndarray]  # (terms,) the target in that basis
+    shares: list[np.ndarray]  # (parameters, terms): what the parameters' basis has of each
+
+
 class Metric:
     """The regression with what a law leaves as an effort of `share` of the size of the one that was located."""
 
@@ -37,16 +46,15 @@ class Metric:
         self.basis, self.triangle = np.linalg.qr(np.vstack([-rows[:, 1:], np.eye(count)]))
         target, share = self._beside(rows[:, :1])
         self.target, self.target_share = target[:, 0], share[:, 0]
-        self.triangles: list[np.ndarray] = []  # (terms, terms) of each group: its columns are a basis times this
-        self.onto: list[np.ndarray] = []  # (terms,) the target in that basis
-        self.shares: list[np.ndarray] = []  # (parameters, terms): what the parameters' basis has of each
+        self.triangles: list[np.ndarray] = []  # of each group, as `Kept` says
+        self.onto: list[np.ndarray] = []
+        self.shares: list[np.ndarray] = []
 
     def _beside(self, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """(what is left beside the parameters, what their basis takes)."""
-        count = self.basis.shape[1]
         share = self.basis[: len(rows)].T @ rows
-        full = np.vstack([rows, np.zeros((count, rows.shape[1]))])
-        full -= self.basis @ share
+        full = self.basis @ -share
+        full[: len(rows)] += rows
         return full, share
 
     def beside_parameters(self, answers: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
@@ -67,19 +75,21 @@ class Metric:
         taken = np.column_stack([self.shares[g] for g in numbers]) * found
         return np.linalg.solve(self.triangle, self.target_share[:, None] - taken)
 
-    def add(self, answers: list[np.ndarray], terms: list[int]) -> np.ndarray:
-        """Take groups of so many terms each in; their columns."""
+    def of(self, answers: list[np.ndarray], terms: list[int]) -> tuple[Kept, np.ndarray]:
+        """What is kept of groups of so many terms each, and their columns."""
         columns, shares = self.beside_parameters(answers)
-        ends = np.cumsum(terms)
-        self.shares += np.split(shares, ends[:-1], axis=1)
-        begin = len(self.triangles)
-        self.triangles += [np.zeros((0, 0))] * len(terms)
-        self.onto += [np.zeros(0)] * len(terms)
+        kept = [(np.zeros((0, 0)), np.zeros(0))] * len(terms)
         for alike, at in _of_one_size(np.array(terms)):
-            found = _triangular(columns[:, at], self.target)
-            for k, triangle, onto in zip(alike, *found, strict=True):
-                self.triangles[begin + k], self.onto[begin + k] = triangle, onto
-        return columns
+            for k, *found in zip(alike, *_triangular(columns[:, at], self.target), strict=True):
+                kept[k] = tuple(found)
+        triangles, onto = map(list, zip(*kept, strict=True))
+        return Kept(triangles, onto, np.split(shares, np.cumsum(terms)[:-1], axis=1)), columns
+
+    def take(self, kept: Kept) -> None:
+        """Take groups in."""
+        self.triangles += kept.triangles
+        self.onto += kept.onto
+        self.shares += kept.shares
 
     def bases(self, chosen: list[np.ndarray]) -> Bases:
         """Bases of several choices of columns."""

@@ -16,8 +16,9 @@ import numpy as np
 from lacuna.discovery.efforts.guide import Guided
 from lacuna.discovery.efforts.latent.chains import Piece
 from lacuna.discovery.efforts.laws.beside import Beside
-from lacuna.discovery.efforts.laws.metric import Bases, Metric, least_squares
+from lacuna.discovery.efforts.laws.metric import Bases, Kept, Metric, least_squares
 from lacuna.discovery.fit.solver import time_limit
+from lacuna.discovery.fit.solver.side_by_side import in_threads
 from lacuna.discovery.law.law import Law, Site
 from lacuna.discovery.law.terms.courses import Courses
 from lacuna.discovery.law.terms.law_terms import Group
@@ -60,16 +61,22 @@ class Regression:
         """Take groups in; their numbers. `wanted`: what is next asked of them takes their columns."""
         added = range(len(self.groups), len(self.groups) + len(groups))
         self.groups += groups
-        for block in self._blocks(added):
-            time_limit.check()
-            counts = [len(self.groups[g].texts) for g in block]
-            answers = self._answers(block)
-            found = [metric.add(answers, counts) for metric in self.metrics]
+        blocks = self._blocks(added)
+        for block, found in zip(blocks, in_threads(lambda b: self._regressed(b, wanted), blocks), strict=True):
+            for metric, (kept, _) in zip(self.metrics, found, strict=True):
+                metric.take(kept)
             if wanted:
-                self._keep(block, found)
+                self._keep(block, [columns for _, columns in found])
         self.alone = np.hstack([self.alone, [metric.deviances_alone(added) for metric in self.metrics]])
         self._strain_ones([g for g in added if len(self.groups[g].texts) == 1])
         return added
+
+    def _regressed(self, numbers: Sequence[int], wanted: bool) -> list[tuple[Kept, np.ndarray | None]]:
+        """What is kept of groups in each metric, and their columns where they are wanted."""
+        time_limit.check()
+        answers, counts = self._answers(numbers), [len(self.groups[g].texts) for g in numbers]
+        found = (metric.of(answers, counts) for metric in self.metrics)
+        return [(kept, columns if wanted else None) for kept, columns in found]
 
     def _blocks(self, numbers: Sequence[int]) -> list[list[int]]:
         """Groups in blocks of so many terms."""
@@ -140,15 +147,18 @@ class Regression:
         those of courses are the same with what the bases are to courses, by the transposes of filter and response."""
         turned = [[m.transposed(b, self.guided.pieces, column, self.every) for column in self.columns]
                   for m, b in zip(self.metrics, bases, strict=True)]  # fmt: skip
-        result: list[list[np.ndarray]] = [[] for _ in self.metrics]
-        for block in blocks:
+
+        def of_block(block: list[int]) -> list[np.ndarray]:
             courses = [[self._courses(block, p, n) for p in self.guided.pieces] for n in range(len(self.columns))]
+            found = []
             for k, metric in enumerate(self.metrics):
                 own = (pair for t, c in zip(turned[k], courses, strict=True) for pair in zip(t, c, strict=True))
                 whole = sum(t.T @ c for t, c in own)
                 shares = np.column_stack([metric.shares[g] for g in block])
-                result[k].append(whole - (metric.basis.T @ bases[k].whole).T @ shares)
-        return [np.concatenate(parts, axis=1) for parts in result]
+                found.append(whole - (metric.basis.T @ bases[k].whole).T @ shares)
+            return found
+
+        return [np.concatenate(parts, axis=1) for parts in zip(*in_threads(of_block, blocks), strict=True)]
 
     def scores(self, chosen: tuple[int, ...], others: Sequence[int]) -> list[float]:
         """Deviance of the chosen groups with each of `others`, and their prices: ln(rows) for each number in them, and
