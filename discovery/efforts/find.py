@@ -74,9 +74,11 @@ def add_laws(
     admitted: Callable[[Site], bool] = lambda site: True,
     most: int = TRIED,
     wide: bool = False,
+    short: bool = False,
 ) -> None:
     """Laws at the best places that are `admitted`, up to the `most`-th: those where none has been looked for yet.
-    `wide`: also at others that are alike or of their components, and in each quantity of a place by itself.
+    `wide`: also at others that are alike or of their components, and in each quantity of a place by itself. `short`: of
+    one group of terms only.
 
     Laws of one group of terms are looked for at all of these first: one of two at the best place, which takes far
     longer, may stand for a short one at a place that an effort of any course does not tell from it.
@@ -89,7 +91,7 @@ def add_laws(
             if _beaten(site, efforts[0]) and (_enough(found, begun, base) or site.gain < WORTH * efforts[0].gain):
                 break
             found.tried.add(site.location)
-            begun.append(LawsAt(case, amendment, base, found.locator, site, progress, wide))
+            begun.append(LawsAt(case, amendment, base, found.locator, site, progress, wide, short))
             begun[-1].go_on()
         enough = _enough(found, begun, base)
         for laws in begun:

@@ -38,7 +38,7 @@ class LawsAt:
 
     def __init__(
         self, case: Case, amendment: Amendment, base: Fit, locator: Locator, site: Site, progress: Progress,
-        wide: bool = False,
+        wide: bool = False, short: bool = False,
     ):  # fmt: skip
         self.case, self.amendment, self.base, self.site, self.progress = case, amendment, base, site, progress
         self.best: Proposal | None = None
@@ -46,7 +46,7 @@ class LawsAt:
         self._single: Proposal | None = None
         self._begun: list[Candidate | None] = []
         self._fitted: list[Proposal] = []
-        self._offered = _offered(locator, site, progress, wide)
+        self._offered = _offered(locator, site, progress, wide, short)
 
     @property
     def settled(self) -> bool:
@@ -137,13 +137,13 @@ def _join(case: Case, base: Fit, laws: list[Candidate], guided: Guided) -> None:
 
 
 def _offered(
-    locator: Locator, site: Site, progress: Progress, wide: bool
+    locator: Locator, site: Site, progress: Progress, wide: bool, short: bool
 ) -> Iterator[tuple[list[Proposal], Guided]]:  # fmt: skip
     """Laws to be fitted at a place, as they are asked for, and what they were screened along."""
     try:
         guided = guide(locator, site)
         progress(f"screening laws at {site.location}")
-        for offered in proposals(locator, site, guided, TRIED, apart=wide):
+        for offered in proposals(locator, site, guided, TRIED, apart=wide, short=short):
             yield offered, guided
     except (NotNumeric, SimulationError, np.linalg.LinAlgError):
         return

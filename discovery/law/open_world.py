@@ -111,8 +111,9 @@ def explain_open(
     located(found)
     hidden = only_instruments(search.case, unbegun.amendment, unbegun.fit)  # an effort says no more, a law hardly may
     most = 1 if hidden else alike_first(found)
-    add_laws(found, search.case, unbegun.amendment, unbegun.fit, progress, most=most)
-    if explained or hidden:
+    only = explained or hidden  # a law counts then, if it is short
+    add_laws(found, search.case, unbegun.amendment, unbegun.fit, progress, most=most, short=only)
+    if only:
         if found.short:
             _take(search, unbegun, found, progress)
         return

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from lacuna.discovery.catalogue.attachment import Attachment
-from lacuna.discovery.fit.evidence import nearly_noise
+from lacuna.discovery.fit.evidence import is_noise, nearly_noise
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.side_by_side import in_threads
 from lacuna.discovery.naming.screen import Candidate
@@ -125,7 +125,10 @@ def relatives(candidates: list[Candidate], fitted: dict[str, Candidate], best: C
 
 
 def outdone(candidates: list[Candidate], fitted: dict[str, Candidate]) -> list[Candidate]:
-    """Fitted laws that fit worse than one which they contain at their place: a dip. From where that one ended."""
+    """Fitted laws that fit worse than one which they contain at their place: a dip. From where that one ended. None
+    where the best of all leaves noise: what a richer law adds to another one is not needed then."""
+    if any(is_noise(c.fit) for c in fitted.values()):
+        return []
     found = []
     for label, law in fitted.items():
         simpler = [c for c in fitted.values() if law.attachment.contains(c.attachment)]

@@ -27,12 +27,14 @@ SAME = 1e-3  # share of what a law explains, by which another one must differ to
 
 
 def proposals(
-    locator: Locator, site: Site, guided: Guided, most: int, strained: bool = True, apart: bool = False
-) -> Iterator[list[Proposal]]:
+    locator: Locator, site: Site, guided: Guided, most: int, strained: bool = True, apart: bool = False,
+    short: bool = False,
+) -> Iterator[list[Proposal]]:  # fmt: skip
     """Laws of one group of terms at a place, then, where `strained` ones are wanted, such as parameters would have to
-    leave their beliefs for, then of two groups; `most` of each, the most telling first, each list found when it is
-    asked for. In any of the quantities in which an effort does the same there, and at last, where wanted, in each of
-    them `apart`: where parameters are far off, what a law promises in one says little beside another one's promise.
+    leave their beliefs for, then, unless `short` ones alone are, of two groups; `most` of each, the most telling first,
+    each list found when it is asked for. In any of the quantities in which an effort does the same there, and at last,
+    where wanted, in each of them `apart`: where parameters are far off, what a law promises in one says little beside
+    another one's promise.
 
     Along a run that an effort of a smooth course leads, a stiff contact is met too early or too late; to first order
     parameters stand for that, and a fit puts them back.
@@ -46,6 +48,8 @@ def proposals(
     yield _forgetting(offered, first)
     if strained:
         yield _forgetting(offered, _best([(r, _refined(r, every, strained=True)) for r, every in offered], most))
+    if short:
+        return
     twos = [(r, _doubled(r, groups, every)) for (r, every), groups in zip(offered, ones, strict=True)]
     pairs = _best(twos, most)
     yield _forgetting(offered, pairs + _from_a_level(twos, pairs))
