@@ -18,7 +18,7 @@ from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.trace import left, looking
-from lacuna.discovery.efforts.laws.variants import stuck
+from lacuna.discovery.efforts.laws.variants import stuck, unbent
 from lacuna.discovery.efforts.places import sites as places
 from lacuna.discovery.fit.evidence import common_correlation, is_noise
 from lacuna.discovery.fit.fit import Fit, fit, linearised
@@ -34,6 +34,7 @@ from lacuna.discovery.naming.screen import Candidate
 
 GROUPS = 3  # that a law may be the sum of
 FITTED = 4  # groups that are fitted in each round
+NEAR = 0.02  # share of a simple number, within which a shape may be that one
 SIGNIFICANT = 3.0  # standard errors of a coefficient below which it is left out
 
 Progress = Callable[[str], None]
@@ -173,8 +174,9 @@ def _simpler(proposal: Proposal) -> list[Proposal]:
     errors = {f.name: float(np.sqrt(max(covariance[k, k], 0.0))) for k, f in enumerate(fitted.estimate.free)}
     prefix, values = f"{component_of(law)}.", proposal.candidate.attachment.own_values(fitted.point)
     found = [*stuck(law, values), *_whole(law, values, errors.get(prefix + "c_1", 0.0))]
+    found += unbent(law, values, lambda name: SIGNIFICANT * errors[prefix + name] + NEAR)
     for name, shape in law.shapes().items():
-        near = [s for s in shape.simple if abs(s - values[name]) < SIGNIFICANT * errors[prefix + name] + 0.02 * s]
+        near = [s for s in shape.simple if abs(s - values[name]) < SIGNIFICANT * errors[prefix + name] + NEAR * s]
         found += [_with_fixed(law, values, name, s) for s in near]
     numbered = law.numbered()
     for k, (c, _, _) in enumerate(numbered):

@@ -13,12 +13,13 @@ from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws import screening
 from lacuna.discovery.efforts.laws.terms import counts, groups
 from lacuna.discovery.efforts.laws.variables import variables
+from lacuna.discovery.efforts.laws.variants import unbent
 from lacuna.discovery.efforts.places.sites import MOST
 from lacuna.discovery.efforts.places.sites import Site as Place
 from lacuna.discovery.law.empirical_law import free_of
 from lacuna.discovery.law.law import Law, Site, attach
 from lacuna.discovery.law.terms.courses import Courses, evaluate
-from lacuna.discovery.law.terms.law_terms import Group, Variable
+from lacuna.discovery.law.terms.law_terms import Group, Shape, Variable
 from lacuna.discovery.law.terms.unscaled import unscaled
 
 TIME = np.linspace(0, 10, 201)
@@ -225,3 +226,22 @@ def test_every_term_is_said_without_the_sizes_of_its_variables() -> None:
 )
 def test_a_term_is_said_in_units_of_its_variables(text: str, said: str) -> None:
     assert unscaled(text, {"c": -2.5, "q": 0.9305, "p": -0.5, "T_ref": 300.0, "w_ref": 100.0, "x_ref": 0.02}) == said
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["(1/(1 + {{q}}*{y}^2) - 1)", "({x}/(1 + {{q}}*{y}^2) - {x})", "({x}/(1 + {{q}}*abs{x}) - {x})"],
+)
+def test_what_bends_too_little_to_be_told_is_a_power(text: str) -> None:
+    x, y = (Variable(f"x{k}", f"tank.{n}", "m", "state", 2.0) for k, n in ((1, "h"), (2, "s")))
+    place = Site(Place("parameter", "k"), "tank.h", "m2/s", (x, y))
+    shape = Shape("q", "1", 1.0, 0.01, 100.0)
+    bent = Law(place, (Group((text.format(x=x.scaled, y=y.scaled),), (shape,)),))
+    (power,) = unbent(bent, {"c_1": 3.0, "q_1": 0.015}, lambda name: 0.02)
+    path = {"time": TIME, "x1": np.linspace(-2, 2, len(TIME)), "x2": np.linspace(2, 1, len(TIME))}
+    courses = Courses(path, {"x1": 2.0, "x2": 2.0})
+    before = 3.0 * courses.of(bent.groups[0].texts[0], {"q": 0.015})
+    after = power.start["c_1"] * courses.of(power.law.groups[0].texts[0])
+    assert not power.law.shapes()
+    assert np.abs(after - before).max() < 0.02 * np.abs(before).max()
+    assert unbent(bent, {"c_1": 3.0, "q_1": 0.015}, lambda name: 0.01) == []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 import re
 
@@ -87,6 +88,27 @@ def stuck(law: Law, values: dict[str, float]) -> list[Proposal]:
         _sticking(law, values, n, v) for n, g in enumerate(law.groups) for v in law.site.variables
         if v.sticks and g.texts == (f"tanh({{q}}*{v.scaled})",)
     ]  # fmt: skip
+
+
+_BENT = (  # what falls with the part {q} that something has at the end of its range, and what it goes with where little
+    (re.compile(r"\(1/\(1 \+ \{q\}\*(.+)\) - 1\)"), "{0}"),
+    (re.compile(r"\((\(\w+/\w+_ref\))/\(1 \+ \{q\}\*(.+)\) - \1\)"), "{0}*{1}"),
+)
+
+
+def unbent(law: Law, values: dict[str, float], little: Callable[[str], float]) -> list[Proposal]:
+    """The law with what saturates so far out that only its beginning is seen: a power. Where the part that it has lost
+    at the end of the range, the shape of that name, is not above what counts as `little`."""
+    found = []
+    for n, group in enumerate(law.groups):
+        name, amount = f"q_{n + 1}", f"c_{1 + sum(len(g.texts) for g in law.groups[:n])}"
+        for bent, power in _BENT if len(group.texts) == 1 else ():
+            parts = bent.fullmatch(group.texts[0])
+            if parts is not None and values[name] < little(name):
+                straight = Group((power.format(*parts.groups()),))
+                start = {k: v for k, v in values.items() if k != name} | {amount: -values[amount] * values[name]}
+                found.append(Proposal(Law(law.site, (*law.groups[:n], straight, *law.groups[n + 1 :])), start))
+    return found
 
 
 def _steep(law: Law, values: dict[str, float]) -> list[Proposal]:
