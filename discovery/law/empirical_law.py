@@ -34,7 +34,6 @@ from lacuna.discovery.naming.screen import Candidate
 
 GROUPS = 3  # that a law may be the sum of
 FITTED = 4  # groups that are fitted in each round
-NEAR = 0.02  # share of a simple number, within which a shape may be that one
 SIGNIFICANT = 3.0  # standard errors of a coefficient below which it is left out
 
 Progress = Callable[[str], None]
@@ -174,9 +173,9 @@ def _simpler(proposal: Proposal) -> list[Proposal]:
     errors = {f.name: float(np.sqrt(max(covariance[k, k], 0.0))) for k, f in enumerate(fitted.estimate.free)}
     prefix, values = f"{component_of(law)}.", proposal.candidate.attachment.own_values(fitted.point)
     found = [*stuck(law, values), *_whole(law, values, errors.get(prefix + "c_1", 0.0))]
-    found += unbent(law, values, lambda name: SIGNIFICANT * errors[prefix + name] + NEAR)
+    found += unbent(law, values, lambda name: SIGNIFICANT * errors[prefix + name])
     for name, shape in law.shapes().items():
-        near = [s for s in shape.simple if abs(s - values[name]) < SIGNIFICANT * errors[prefix + name] + NEAR * s]
+        near = [s for s in shape.simple if abs(s - values[name]) < SIGNIFICANT * errors[prefix + name] + 0.02 * s]
         found += [_with_fixed(law, values, name, s) for s in near]
     numbered = law.numbered()
     for k, (c, _, _) in enumerate(numbered):
