@@ -172,8 +172,7 @@ def _simpler(proposal: Proposal) -> list[Proposal]:
     covariance = fitted.estimate.covariance(fitted.inflation())
     errors = {f.name: float(np.sqrt(max(covariance[k, k], 0.0))) for k, f in enumerate(fitted.estimate.free)}
     prefix, values = f"{component_of(law)}.", proposal.candidate.attachment.own_values(fitted.point)
-    found = [*stuck(law, values), *_whole(law, values, errors.get(prefix + "c_1", 0.0))]
-    found += unbent(law, values, lambda name: SIGNIFICANT * errors[prefix + name])
+    found = [*stuck(law, values), *unbent(law, values), *_whole(law, values, errors.get(prefix + "c_1", 0.0))]
     for name, shape in law.shapes().items():
         near = [s for s in shape.simple if abs(s - values[name]) < SIGNIFICANT * errors[prefix + name] + 0.02 * s]
         found += [_with_fixed(law, values, name, s) for s in near]

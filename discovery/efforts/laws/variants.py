@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 import re
 
@@ -96,15 +95,15 @@ _BENT = (  # what falls with the part {q} that something has at the end of its r
 )
 
 
-def unbent(law: Law, values: dict[str, float], error: Callable[[str], float]) -> list[Proposal]:
-    """The law with what saturates so far out that only its beginning is seen: a power. Where the `error` of the shape
-    that says how far does not tell it from the least of that form."""
+def unbent(law: Law, values: dict[str, float]) -> list[Proposal]:
+    """The law with what saturates so far out that it has lost less than half at the end of the range as the power with
+    which it begins."""
     found = []
     for n, group in enumerate(law.groups):
         name, amount = f"q_{n + 1}", f"c_{1 + sum(len(g.texts) for g in law.groups[:n])}"
         for bent, power in _BENT if len(group.texts) == 1 else ():
             parts = bent.fullmatch(group.texts[0])
-            if parts is not None and values[name] < group.shapes[0].lower + error(name):
+            if parts is not None and values[name] < 1:
                 straight = Group((power.format(*parts.groups()),))
                 start = {k: v for k, v in values.items() if k != name} | {amount: -values[amount] * values[name]}
                 found.append(Proposal(Law(law.site, (*law.groups[:n], straight, *law.groups[n + 1 :])), start))
