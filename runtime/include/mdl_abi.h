@@ -56,7 +56,8 @@ typedef struct {
 /* Up to here the root is that of the start values' branch (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004,
  * 2.1 and 5.1); towards a double root the ratio tends to 1/2. */
 #define MDL_CONTRACTS 0.25
-#define MDL_SOMEWHERE 0x7fffffff /* of no equation that is known */
+#define MDL_SOMEWHERE 0x7fffffff               /* of no equation that is known */
+#define MDL_UNREAD    __builtin_nan("0x1acca") /* what has no value, and nobody reads: a NaN told by its bits */
 
 /* All memory of one run of one model; allocated by the runtime from the counts of the descriptor. */
 typedef struct mdl_data {
@@ -221,8 +222,7 @@ typedef struct mdl_descriptor {
    * true and m->when (the condition before this pass) is false; event() updates m->when itself. */
   int (*event)(mdl_data *m, double t, double *x, const double *xdot, const double *v);
 
-  /* Check the other asserts at an accepted point; not 0, with m->failure set, where one is violated. NULL: no others.
-   */
+  /* Check the other asserts at an accepted point; not 0, with m->failure set: one is violated. NULL: no others. */
   int (*check)(mdl_data *m, double t, const double *x, const double *xdot, const double *v);
 
   const struct mdl_tangents *tangents; /* derivatives (mdl_tangent.h); NULL where they were not asked for */

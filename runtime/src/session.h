@@ -227,11 +227,11 @@ static inline void rt_extend_guard(rt_session *s, int r, double size) {
 
 /* blame.c and failure.c */
 int rt_find_row(const rt_session *s, mdl_storage storage, int index);
-int rt_state_variable(const rt_session *s, int state);
-int rt_unknown_variable(const rt_session *s, int k);
+int rt_state_variable(const rt_session *s, int state), rt_unknown_variable(const rt_session *s, int k);
 void rt_append_name(char *text, size_t size, const char *name);
 void rt_append_changed(const rt_session *s, char *text, size_t size);
 bool rt_blame(rt_session *s, mdl_storage storage, const double *xdot, const double *v);
+bool rt_has_values(rt_session *s, const double *xdot, const double *v);
 rt_status rt_fail(rt_session *s, rt_status status, double time, int variable, const mdl_equation *where,
                   const char *format, ...) __attribute__((format(printf, 6, 7)));
 rt_status rt_fail_model(rt_session *s, double time, const char *doing);
