@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 27
+#define MDL_ABI_VERSION 28
 
 enum { MDL_FOLLOWS = 1, MDL_ARRIVAL = 2 }; /* bits of events_follow */
 
@@ -89,8 +89,7 @@ typedef struct mdl_data {
   int brief;    /* 1: rhs() may write no more of v than what it starts from at the next point */
   double shift; /* 0; by as many nominal values rhs() moves what is open away from the solution next to zero */
   mdl_contraction contraction; /* in rhs() and initial_system(), since the runtime set its ratio to zero */
-  double *orientation;         /* [n_equations] of a nonlinear block, at its first equation: 1 or -1, the sign of the
-                                  determinant of its Jacobian at the root; 0 unknown */
+  double *orientation;  /* [n_equations] of a nonlinear block, at its first: 1, -1: sign of det J there; 0 unknown */
   const double *facing; /* [n_equations] that on the branch that the run follows, 0: any. It changes nowhere on it */
 } mdl_data;
 
@@ -133,8 +132,7 @@ typedef struct {
 typedef struct {
   mdl_equation source; /* `text` is the message */
   int n_values;
-  const int
-      *values; /* [n_values] rows of the variables that its condition compares, to be shown where it is violated */
+  const int *values; /* [n_values] rows of the variables that its condition compares, shown where it is violated */
 } mdl_assert;
 
 /* A relation of time, parameters and discretes only is switched by a time event, not by a root. A follower compares
@@ -290,6 +288,8 @@ typedef struct mdl_descriptor {
   /* All stages of a step of h from (t, x), with its slopes in k[0 .. n_x): as rhs() gives, brief but for the last,
    * k[j n_x + i] = x'_i at x + h sum_l weights[j][l] k_l; x1 and v are those of the last. NULL: one by one. */
   int (*stages)(mdl_data *m, const mdl_scheme *, double t, double h, const double *x, double *k, double *x1, double *v);
+  int n_redundant;
+  const mdl_computed *redundant; /* [n_redundant] fixed start values that the other initial conditions have to give */
 } mdl_descriptor;
 
 typedef const mdl_descriptor *(*mdl_descriptor_fn)(void);

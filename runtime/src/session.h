@@ -137,6 +137,7 @@ struct rt_session {
   double *x_trial, *xdot_trial, *v_trial;
   double *x_before, *xdot_before, *v_before, *v_agreed; /* v_agreed: v as it follows what an event sets (events.c) */
   double *d_before, *d_after;             /* discrete variables before an event; and aside while it is differentiated */
+  double *declared;                       /* start values of `redundant` in the descriptor */
   double *x_start;                        /* what the states begin with: declared, or given by the caller */
   double *x_swept, *d_swept;              /* states after a sweep of an event, discrete variables before it */
   unsigned char *rel_swept, *when_before; /* relations before a sweep, when conditions before its pass */
@@ -252,8 +253,7 @@ rt_status rt_check_forms(rt_session *s);
 
 /* scale.c and check.c */
 rt_status rt_scale_parameters(rt_session *s);
-void rt_scale_start(rt_session *s);
-void rt_scale_grow(rt_session *s);
+void rt_scale_start(rt_session *s), rt_scale_grow(rt_session *s);
 double rt_least_share(double tolerance);
 rt_status rt_check_parameters(rt_session *s);
 rt_status rt_check_values(rt_session *s, double t, const double *x, const double *xdot, const double *v);
