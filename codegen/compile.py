@@ -28,6 +28,7 @@ from lacuna.codegen.dae.operators.held_inputs import hold_inputs
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.relations import Relation, rename
 from lacuna.codegen.dae.storage import Storage
+from lacuna.codegen.dae.unassigned import leave_unread
 from lacuna.codegen.emit.source import generate
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten import flatten
@@ -88,7 +89,7 @@ def _uncollected() -> Iterator[None]:
 def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     """The structural passes, in order."""
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 20000))
-    declared = report.run("initial system", free_parameters, declared)
+    declared = leave_unread(report.run("initial system", free_parameters, declared))
     aliases = report.run("aliases", eliminate_aliases, hold_inputs(declared))
     split = report.run("initial system", homotopy.split, aliases.model)
     split, delayed = report.run("hybrid", delays.split, split)

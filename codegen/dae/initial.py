@@ -23,11 +23,13 @@ from lacuna.codegen.symbolic.leaves import leaves
 
 @dataclass
 class InitialSystem:
-    """`steps` compute all unknowns; `from_start` says that the states are simply their start values."""
+    """`steps` compute all unknowns; `from_start` says that the states are simply their start values; `redundant` are
+    equations of fixed start values that the others determine, which have to give the same."""
 
     steps: list[Step]
     from_start: bool
     warnings: list[Diagnostic] = field(default_factory=list)
+    redundant: list[flat.Equation] = field(default_factory=list)
 
 
 def initial_system(system: System, equations: list[flat.Equation], tearing: Tearing) -> InitialSystem:
@@ -39,11 +41,15 @@ def initial_system(system: System, equations: list[flat.Equation], tearing: Tear
     unmatched = matching.match_all()
     if unmatched:
         _refuse(system, rows, unknowns, matching, unmatched)
+    redundant = []
     for name in _fixed(system):
         row = _start_row(system, name)
-        if not matching.add_row([column[var(name)]]):
-            _refuse_start(system, rows, unknowns, matching, row, column)
-        rows.append(row)
+        if matching.add_row([column[var(name)]]):
+            rows.append(row)
+        elif _may_agree(system, rows, matching, row, column, equations):
+            redundant.append(row.source)
+        else:
+            _refuse_start(rows, matching, row, column)
     assumed = _assume_starts(system, rows, unknowns, matching, column)
     steps = [_guessed(s, system.model) for s in causalise(rows, unknowns, tearing)]
     own = {*map(var, system.states)}
@@ -51,7 +57,8 @@ def initial_system(system: System, equations: list[flat.Equation], tearing: Tear
         isinstance(s, Assignment) and s.row.source.text.startswith("start of") for s in steps
         if own & set(unknowns_of(s))
     )  # fmt: skip
-    return InitialSystem(steps, trivial, [*_warnings(system, assumed), *_warnings_of_modes(system, steps)])
+    warnings = [*_warnings(system, assumed), *_warnings_of_modes(system, steps), *map(_warning_of_check, redundant)]
+    return InitialSystem(steps, trivial, warnings, redundant)
 
 
 def _guessed(step: Step, model: flat.FlatModel) -> Step:
@@ -160,13 +167,38 @@ def _refuse(system: System, rows: list[Row], unknowns: list[Expr], matching: Mat
     )  # fmt: skip
 
 
-def _refuse_start(
-    system: System, rows: list[Row], unknowns: list[Expr], matching: Matching, row: Row, column: dict[Expr, int]
-) -> None:
-    name = str(row.lhs.value)
+def _determining(rows: list[Row], matching: Matching, row: Row, column: dict[Expr, int]) -> list[Row]:
+    """The rows that determine the variable of a start row which cannot be added."""
     over, _ = matching.overdetermined([matching.row_of[column[row.lhs]]])
+    return [rows[r] for r in over]
+
+
+def _may_agree(
+    system: System,
+    rows: list[Row],
+    matching: Matching,
+    row: Row,
+    column: dict[Expr, int],
+    initial: list[flat.Equation],
+) -> bool:
+    """Whether a start row repeats what the model makes of others: three fixed currents of a star, of which two
+    determine the third. Where initial equations determine it one of them is most likely meant to go, and so it is
+    where a state, which a caller of the run may give, would not have its value."""
+    written = set(map(id, initial))
+    return row.lhs.value not in system.states and all(
+        id(r.source) not in written for r in _determining(rows, matching, row, column)
+    )
+
+
+def _warning_of_check(start: flat.Equation) -> Diagnostic:
+    text = f"other initial conditions determine {start.lhs} already, which has a fixed start value"
+    hint = "the run ends where they give another value; drop fixed=true where that may be"
+    return Diagnostic("S022", text, start.span, hint, severity="warning")
+
+
+def _refuse_start(rows: list[Row], matching: Matching, row: Row, column: dict[Expr, int]) -> None:
     raise Diagnostic(
-        "S022", f"{name} has a fixed start value, but other initial conditions determine it already", row.source.span,
-        "drop fixed=true here or on one of the variables below",
-        [(rows[r].source.span, rows[r].text) for r in over[:12]],
+        "S022", f"{row.lhs} has a fixed start value, but other initial conditions determine it already",
+        row.source.span, "drop fixed=true here or on one of the variables below",
+        [(r.source.span, r.text) for r in _determining(rows, matching, row, column)[:12]],
     )  # fmt: skip

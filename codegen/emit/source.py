@@ -34,7 +34,7 @@ _CALLBACKS = (
 _DELAYS = {"delays": "mdl_delays", "delay_times": "mdl_delay_times", "delay_input": "mdl_delay_input",
            "delay_equation": "mdl_delay_equation"}  # fmt: skip
 _TRANSPORTS = {key: f"mdl_{key}" for key in ("transports", "transport_initial", "transport_input", "transport_points")}
-_SELDOM = ("branches", "lasting", "delay", "transport")
+_SELDOM = ("branches", "lasting", "redundant", "delay", "transport")
 _COUNTED = ("variables", "equations", "asserts", "messages", "z", "computed", "divisions", *_SELDOM)
 
 
@@ -140,6 +140,7 @@ def _arrays(tables: Tables, checks: Checks, messages: list[str]) -> tuple[list[s
         "several": ("unsigned char mdl_z_branches", tables.z_branches()),
         "branches": ("mdl_computed mdl_branches", tables.branches()),
         "lasting": ("mdl_lasting mdl_lasting_rows", tables.lasting()),
+        "redundant": ("mdl_computed mdl_redundant_rows", tables.redundant()),
         "residuals": ("int mdl_residual_equation", tables.residual_equations()),
         "p_start": ("double mdl_p_start", tables.parameter_starts()),
         "colptr": ("int mdl_jac_colptr", tables.column_pointers()),
@@ -201,6 +202,7 @@ def _descriptor(prepared: Prepared, counts: dict[str, int], tangents: bool) -> s
         **_guards(prepared),
         **({"branches": "mdl_branches"} if "n_branches" in counts else {}),
         **({"lasting": "mdl_lasting_rows"} if "n_lasting" in counts else {}),
+        **({"redundant": "mdl_redundant_rows"} if "n_redundant" in counts else {}),
         **({"events_follow": " | ".join(follow)} if (follow := _follow(prepared)) else {}),
         **(_DELAYS if prepared.delays else {}),
         **(_TRANSPORTS if prepared.transports else {}),

@@ -234,7 +234,7 @@ def _merge_attributes(model: flat.FlatModel, pairs: dict[str, tuple[str, int]]) 
                 f"give one fixed=false, or both the same start: {b.start} against {'-' if sign < 0 else ''}{a.start}",
                 [(a.start_span, f"{name} is {'-' if sign < 0 else ''}{target}")],
             )  # fmt: skip
-        if a.start is not None and (b.start is None or (_is_fixed(a) and not _is_fixed(b))):
+        if not _is_fixed(b) and (_is_fixed(a) or (a.start is not None and b.start is None)):
             changed |= {"start": _start(a, sign), "fixed": a.fixed}
         if a.nominal is not None and b.nominal is None:
             changed["nominal"] = a.nominal

@@ -27,6 +27,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import cache
 import math
 import threading
 
@@ -123,6 +124,25 @@ def const(value: float | int | bool) -> Expr:
 def nothing(type: str) -> Expr:
     """What is no value of a type: where a run computes it, the run ends."""
     return node("const", (), math.nan, type)
+
+
+class Unassigned(float):
+    """No number: what `output`, as "r.b of f" says, is where its function does not assign it. `unread`: nobody asks."""
+
+    output: str
+    unread: bool
+
+
+@cache
+def _unassigned(output: str, unread: bool) -> Unassigned:
+    value = Unassigned(math.nan)
+    value.output, value.unread = output, unread
+    return value
+
+
+def unassigned(output: str, unread: bool = False) -> Expr:
+    """The Real that is no value, of an output as a message names it."""
+    return node("const", (), _unassigned(output, unread))
 
 
 def is_nothing(e: Expr) -> bool:

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 27
+#define MDL_ABI_VERSION 28
 
 enum { MDL_FOLLOWS = 1, MDL_ARRIVAL = 2 }; /* bits of events_follow */
 
@@ -56,7 +56,8 @@ typedef struct {
 /* Up to here the root is that of the start values' branch (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004,
  * 2.1 and 5.1); towards a double root the ratio tends to 1/2. */
 #define MDL_CONTRACTS 0.25
-#define MDL_SOMEWHERE 0x7fffffff /* of no equation that is known */
+#define MDL_SOMEWHERE 0x7fffffff               /* of no equation that is known */
+#define MDL_UNREAD    __builtin_nan("0x1acca") /* what has no value, and nobody reads: a NaN told by its bits */
 
 /* All memory of one run of one model; allocated by the runtime from the counts of the descriptor. */
 typedef struct mdl_data {
@@ -88,8 +89,7 @@ typedef struct mdl_data {
   int brief;    /* 1: rhs() may write no more of v than what it starts from at the next point */
   double shift; /* 0; by as many nominal values rhs() moves what is open away from the solution next to zero */
   mdl_contraction contraction; /* in rhs() and initial_system(), since the runtime set its ratio to zero */
-  double *orientation;         /* [n_equations] of a nonlinear block, at its first equation: 1 or -1, the sign of the
-                                  determinant of its Jacobian at the root; 0 unknown */
+  double *orientation;  /* [n_equations] of a nonlinear block, at its first: 1, -1: sign of det J there; 0 unknown */
   const double *facing; /* [n_equations] that on the branch that the run follows, 0: any. It changes nowhere on it */
 } mdl_data;
 
@@ -132,8 +132,7 @@ typedef struct {
 typedef struct {
   mdl_equation source; /* `text` is the message */
   int n_values;
-  const int
-      *values; /* [n_values] rows of the variables that its condition compares, to be shown where it is violated */
+  const int *values; /* [n_values] rows of the variables that its condition compares, shown where it is violated */
 } mdl_assert;
 
 /* A relation of time, parameters and discretes only is switched by a time event, not by a root. A follower compares
@@ -221,8 +220,7 @@ typedef struct mdl_descriptor {
    * true and m->when (the condition before this pass) is false; event() updates m->when itself. */
   int (*event)(mdl_data *m, double t, double *x, const double *xdot, const double *v);
 
-  /* Check the other asserts at an accepted point; not 0, with m->failure set, where one is violated. NULL: no others.
-   */
+  /* Check the other asserts at an accepted point; not 0, with m->failure set: one is violated. NULL: no others. */
   int (*check)(mdl_data *m, double t, const double *x, const double *xdot, const double *v);
 
   const struct mdl_tangents *tangents; /* derivatives (mdl_tangent.h); NULL where they were not asked for */
@@ -290,6 +288,8 @@ typedef struct mdl_descriptor {
   /* All stages of a step of h from (t, x), with its slopes in k[0 .. n_x): as rhs() gives, brief but for the last,
    * k[j n_x + i] = x'_i at x + h sum_l weights[j][l] k_l; x1 and v are those of the last. NULL: one by one. */
   int (*stages)(mdl_data *m, const mdl_scheme *, double t, double h, const double *x, double *k, double *x1, double *v);
+  int n_redundant;
+  const mdl_computed *redundant; /* [n_redundant] fixed start values that the other initial conditions have to give */
 } mdl_descriptor;
 
 typedef const mdl_descriptor *(*mdl_descriptor_fn)(void);

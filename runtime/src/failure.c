@@ -182,6 +182,24 @@ static void append_relation(rt_session *s) {
   }
 }
 
+/* Linear equations are ordered for all values of parameters: where one is zero they may lack what another order has
+ * (i = C*der(v) at C = 0 gives i, not v). */
+static void append_zeros(rt_session *s, int equation) {
+  const mdl_descriptor *d = s->d;
+  char names[200] = "", *message = s->failure.message;
+  size_t size = sizeof s->failure.message, n = strlen(message);
+  for (int k = d->equation_first[equation]; k < d->equation_first[equation + 1]; k++) {
+    const mdl_variable *v = &d->variables[d->equation_variables[k]];
+    if (v->is_parameter && v->type == MDL_REAL && v->storage == MDL_PARAMETER && s->data.p[v->index] == 0)
+      rt_append_name(names, sizeof names, v->name);
+  }
+  if (names[0] && n < size)
+    snprintf(message + n, size - n,
+             "; that may come of what is zero: %s; annotation(Evaluate = true) at its declaration orders the equations "
+             "for that value; else give it, or what it follows from, a small value",
+             names);
+}
+
 /* Turn the failure that a model function has left in m->failure into the session's. `doing` says what for. */
 rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   const mdl_descriptor *d = s->d;
@@ -203,6 +221,7 @@ rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
           named ? ", variable " : "", named ? d->variables[variable].name : "", value);
   if (where && d->equation_first) rt_append_equation(s, f->equation);
   if (f->kind == MDL_FAILURE_NEWTON) append_relation(s);
+  if (f->kind == MDL_FAILURE_SINGULAR && where && d->equation_first) append_zeros(s, f->equation);
   return s->failure.status;
 }
 

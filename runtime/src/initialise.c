@@ -54,6 +54,8 @@ static rt_status set_parameters_and_starts(rt_session *s) {
   if (s->d->parameters(&s->data) || rt_check_settled(s, s->data.unsettled))
     return rt_fail_model(s, s->start, "computing parameters");
   if (s->d->starts(&s->data)) return rt_fail_model(s, s->start, "computing start values");
+  for (int k = 0; k < s->d->n_redundant; k++)
+    s->declared[k] = s->data.v[s->d->redundant[k].index];
   rt_status status = rt_check_parameters(s);
   if (!status) status = rt_scale_parameters(s);
   return !status && s->sensitivities ? rt_tangent_start(s) : status;
@@ -180,6 +182,38 @@ static void begin_relations(rt_session *s) {
   m->failure = (mdl_failure){.equation = -1, .variable = -1};
 }
 
+/* The largest of the variables that v[index] is rounded with: those in its equation, in the last digits any state. */
+static double size_beside(const rt_session *s, int index) {
+  const mdl_descriptor *d = s->d;
+  double size = 0;
+  for (int i = 0; i < d->n_x; i++)
+    size = rt_max(size, 1e-6 * fabs(s->data.x[i]));
+  for (int k = 0; k < d->n_computed; k++) {
+    const mdl_computed *c = &d->computed[k];
+    if (c->storage != MDL_ALGEBRAIC || c->index != index) continue;
+    for (int j = d->equation_first[c->equation]; j < d->equation_first[c->equation + 1]; j++) {
+      const mdl_variable *v = &d->variables[d->equation_variables[j]];
+      if (v->storage == MDL_ALGEBRAIC) size = rt_max(size, fabs(s->data.v[v->index]));
+    }
+  }
+  return size;
+}
+
+/* Fixed start values that the other initial conditions determine are the same, where the caller gives no others. */
+static rt_status check_redundant(rt_session *s) {
+  const mdl_descriptor *d = s->d;
+  for (int k = 0; k < d->n_redundant && !s->n_initial; k++) {
+    int index = d->redundant[k].index, row = rt_find_row(s, MDL_ALGEBRAIC, index);
+    double value = s->data.v[index], declared = s->declared[k];
+    double size = rt_max(rt_max(fabs(declared), fabs(value)), size_beside(s, index));
+    if (fabs(value - declared) <= s->options.rtol * size) continue;
+    return rt_fail(s, RT_INITIALISATION, s->t, row, &d->equations[d->redundant[k].equation],
+                   "%s has the fixed start value %.9g, but the other initial conditions give %.9g",
+                   row < 0 ? "a variable" : d->variables[row].name, declared, value);
+  }
+  return RT_OK;
+}
+
 /* Initial equations, relations and discrete equations with initial() true, until they agree; pre(d) stays the start
  * value, which the first event leaves (8.6), or is what d comes to be (`steady`); *sets: that is another. States given
  * by the caller are what others follow from; they replace what initial equations say of them. */
@@ -221,7 +255,7 @@ static rt_status solve_initial_equations(rt_session *s, bool steady, bool *sets)
     if (i >= MAX_ITERATIONS - WATCHED_ITERATIONS) rt_append_changed(s, names, sizeof names);
     *sets |= memcmp(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d) != 0;
     if (steady) memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
-    if (!changed) return RT_OK;
+    if (!changed) return check_redundant(s);
   }
   return rt_fail(s, RT_INITIALISATION, s->t, -1, NULL,
                  "the initial equations do not settle at time %.9g s; these keep changing: %s", s->t,

@@ -52,7 +52,7 @@ static bool allocate_numbers(rt_session *s) {
   double **guards[] = {&s->g,        &s->g_previous,    &s->g_low,         &s->g_trial, &s->g_before,
                        &s->g_oldest, &s->g_reach,       &s->bound,         &s->g_span,  &s->g_travel,
                        &s->g_floor,  &s->changed_at[0], &s->changed_at[1], &s->due_back};
-  double **turns[] = {&s->phase, &s->phase_start};
+  double **turns[] = {&s->phase, &s->phase_start}, **declared[] = {&s->declared};
   const group groups[] = {{parameters, COUNT(parameters), d->n_p},
                           {inputs, COUNT(inputs), d->n_u},
                           {discrete, COUNT(discrete), d->n_d},
@@ -66,6 +66,7 @@ static bool allocate_numbers(rt_session *s) {
                           {division, COUNT(division), 2 * d->n_divisions},
                           {guards, COUNT(guards), d->n_rel},
                           {turns, COUNT(turns), d->n_phases},
+                          {declared, COUNT(declared), d->n_redundant},
                           {branches, COUNT(branches), d->n_branches},
                           {sides, COUNT(sides), d->n_equations}};
   s->n_numbers = 1;

@@ -109,7 +109,7 @@ static rt_status move_back(rt_session *s, double t) {
   for (int k = 0; k < 2; k++) {
     s->t = k ? s->t_uncrossed : t;
     rt_dense_eval(&s->dense, d->n_x, s->t, s->data.x);
-    if (!rt_evaluate(s) && rt_finite(d->n_v, s->data.v)) return RT_OK;
+    if (!rt_evaluate(s) && rt_has_values(s, s->data.xdot, s->data.v)) return RT_OK;
     memcpy(s->data.v, s->v_end, (size_t)d->n_v * sizeof(double));
   }
   return rt_fail_model(s, t, "evaluating the model at an event");

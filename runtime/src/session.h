@@ -137,6 +137,7 @@ struct rt_session {
   double *x_trial, *xdot_trial, *v_trial;
   double *x_before, *xdot_before, *v_before, *v_agreed; /* v_agreed: v as it follows what an event sets (events.c) */
   double *d_before, *d_after;             /* discrete variables before an event; and aside while it is differentiated */
+  double *declared;                       /* start values of `redundant` in the descriptor */
   double *x_start;                        /* what the states begin with: declared, or given by the caller */
   double *x_swept, *d_swept;              /* states after a sweep of an event, discrete variables before it */
   unsigned char *rel_swept, *when_before; /* relations before a sweep, when conditions before its pass */
@@ -227,11 +228,11 @@ static inline void rt_extend_guard(rt_session *s, int r, double size) {
 
 /* blame.c and failure.c */
 int rt_find_row(const rt_session *s, mdl_storage storage, int index);
-int rt_state_variable(const rt_session *s, int state);
-int rt_unknown_variable(const rt_session *s, int k);
+int rt_state_variable(const rt_session *s, int state), rt_unknown_variable(const rt_session *s, int k);
 void rt_append_name(char *text, size_t size, const char *name);
 void rt_append_changed(const rt_session *s, char *text, size_t size);
 bool rt_blame(rt_session *s, mdl_storage storage, const double *xdot, const double *v);
+bool rt_has_values(rt_session *s, const double *xdot, const double *v);
 rt_status rt_fail(rt_session *s, rt_status status, double time, int variable, const mdl_equation *where,
                   const char *format, ...) __attribute__((format(printf, 6, 7)));
 rt_status rt_fail_model(rt_session *s, double time, const char *doing);
@@ -252,8 +253,7 @@ rt_status rt_check_forms(rt_session *s);
 
 /* scale.c and check.c */
 rt_status rt_scale_parameters(rt_session *s);
-void rt_scale_start(rt_session *s);
-void rt_scale_grow(rt_session *s);
+void rt_scale_start(rt_session *s), rt_scale_grow(rt_session *s);
 double rt_least_share(double tolerance);
 rt_status rt_check_parameters(rt_session *s);
 rt_status rt_check_values(rt_session *s, double t, const double *x, const double *xdot, const double *v);

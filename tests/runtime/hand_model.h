@@ -171,6 +171,8 @@ template <class M> struct Generated {
                                      0,
                                      nullptr,
                                      nullptr,
+                                     nullptr,
+                                     0,
                                      nullptr};
     return &d;
   }

@@ -9,6 +9,7 @@ from lacuna.codegen import flat
 from lacuna.codegen.dae.discrete.events import DiscreteEquation, targets
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.relations import Relation
+from lacuna.codegen.dae.unassigned import told
 from lacuna.codegen.emit.callbacks.asserts import assert_rows, is_told, of_parameters, write_assert
 from lacuna.codegen.emit.callbacks.continuous import function
 from lacuna.codegen.emit.callbacks.equations import EquationTable
@@ -225,7 +226,8 @@ def dependent_parameters(prepared: Prepared) -> list[tuple[str, flat.Equation]]:
     """Parameters that follow others, in the order in which they are computed, each with its equation."""
     variables = prepared.model.variables
     found = [v for n in dependency_order(prepared.model) if not is_settable(v := variables[n])]
-    return [(v.name, flat.Equation(var(v.name), v.binding, v.span, text=f"{v.name} = {v.binding}")) for v in found]
+    texts = [told(f"{v.name} = {v.binding}", v.binding) for v in found]
+    return [(v.name, flat.Equation(var(v.name), v.binding, v.span, text=t)) for v, t in zip(found, texts, strict=True)]
 
 
 def is_settable(v: flat.Variable) -> bool:

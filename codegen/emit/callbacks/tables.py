@@ -143,6 +143,10 @@ class Tables:
         starts = [(u, self._equations.index(b.residuals[0].source)) for b in blocks for u in b.tears]
         return [f"{{{self._kept(u)}, {equation}}}" for u, equation in starts]
 
+    def redundant(self) -> list[str]:
+        """Fixed start values that other initial conditions determine."""
+        return [f"{{{self._kept(e.lhs)}, {self._equations.index(e)}}}" for e in self._p.initial.redundant]
+
     def _kept(self, unknown: Expr) -> str:
         derivative = unknown.op == "der"
         slot = self._p.storage.slot(str((unknown.args[0] if derivative else unknown).value))

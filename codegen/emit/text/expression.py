@@ -10,6 +10,7 @@ from lacuna.codegen.symbolic.expr import (
     BUILTINS,
     INTEGER,
     Expr,
+    Unassigned,
     call,
     const,
     div,
@@ -62,6 +63,8 @@ def number(value: float | int | bool) -> str:
     """A C literal that reads back to exactly this double (Booleans as int)."""
     if isinstance(value, bool):
         return str(int(value))
+    if isinstance(value, Unassigned) and value.unread:
+        return "MDL_UNREAD"
     text = repr(float(value))
     return text if text.lstrip("-") not in ("inf", "nan") else text.replace("inf", "INFINITY").replace("nan", "NAN")
 

@@ -216,6 +216,14 @@ def _is_unset(n: Expr) -> bool:
     return n.op == "unset"
 
 
+def _no_value(n: Expr, local: Local, cls: ast.Class, context: Context) -> Expr:
+    """What a run has in the place of `n`, which nothing was assigned to: a variable, or a field of the output."""
+    if n.type != REAL:
+        return ex.nothing(n.type)
+    variables = {d.name for d in signature_of(cls, context).locals}
+    return ex.unassigned(f"{n.value if n.value in variables else f'{local.name}.{n.value}'} of {cls.name}")
+
+
 def result_of(local: Local, value: Value, cls: ast.Class, context: Context) -> Value:
     """The value of an output. What some case alone leaves unassigned is no value: a run that meets the case ends, and a
     warning says so (12.4.4). Raises F033 for what no case assigns."""
@@ -231,9 +239,9 @@ def result_of(local: Local, value: Value, cls: ast.Class, context: Context) -> V
             raise Diagnostic("F033", message, span, "assign it, or give it a value first")
         if missing and all(w.span != span for w in context.warnings):
             message = f"the output {local.name} of {cls.name} is not assigned where no condition holds"
-            hint = "the run ends where that is met: give it a value first, or write else"
+            hint = "where that is met, and something reads it, the run ends: give it a value first, or write else"
             context.warnings.append(Diagnostic("W011", message, span, hint, severity="warning"))
-        found = ex.substitute(s, {n: ex.nothing(n.type) for n in missing}) if missing else s
+        found = ex.substitute(s, {n: _no_value(n, local, cls, context) for n in missing}) if missing else s
         return ex.as_real(found) if local.type.primitive == REAL and isinstance(found, Expr) else found
 
     return with_scalars(value, map(assigned, scalars(value)))

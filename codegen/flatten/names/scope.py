@@ -13,6 +13,7 @@ from lacuna.codegen.flatten.names.views import constrain, is_specialised, member
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.library.predefined import PREDEFINED, PRIMITIVES
 from lacuna.codegen.library.search_path import WITHOUT_MODELICA
+from lacuna.codegen.library.versions import not_in_copy
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.syntax import ast
 from lacuna.suggest import did_you_mean
@@ -189,7 +190,7 @@ def imported_class(library: Library, item: ast.Import) -> ast.Class | None:
             if at and at == len(item.path.names) - 1 and not item.every:
                 return None
             otherwise = WITHOUT_MODELICA if (at, name) == (0, "Modelica") else "declare it, or import its package"
-            hint = did_you_mean(name, library.members(cls), otherwise)
+            hint = did_you_mean(name, library.members(cls), not_in_copy(library, cls, name) or otherwise)
             where = f" in {cls.path}" if cls.name else ""
             raise Diagnostic("R002", f"import: there is no class {name}{where}", item.span, hint)
         last = at == len(item.path.names) - 1

@@ -16,6 +16,7 @@ from lacuna.codegen.flatten.names.scope import (
 from lacuna.codegen.library.classes import HOME_PACKAGE, Library
 from lacuna.codegen.library.predefined import PRIMITIVES
 from lacuna.codegen.library.search_path import WITHOUT_MODELICA
+from lacuna.codegen.library.versions import not_in_copy, other_version, top_package
 from lacuna.codegen.syntax import ast
 from lacuna.suggest import LISTED, did_you_mean, nearest, question
 
@@ -38,7 +39,7 @@ def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> 
         hint = "use when sample(start, interval) then"
         return Diagnostic("R091", "Clock is outside the subset", ref.span, hint)
     known: list[str] = [*visible_classes(library, cls), *PRIMITIVES]
-    missing, held = ref.names[0], ""
+    missing, held, last = ref.names[0], "", None
     current = find_first(library, cls, ref.names[0])
     for name in ref.names[1:]:
         if current is None:
@@ -48,6 +49,8 @@ def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> 
         known, missing = library.members(current), name
         more = f" and {len(known) - LISTED} more" if len(known) > LISTED else ""
         held = f"{current.name} has {', '.join(known[:LISTED])}{more}" if known else ""
+        last = current
+        held = ": ".join(filter(None, (not_in_copy(library, current, name), held)))
         current = own_or_inherited(library, current, name)
     hint = did_you_mean(missing, known) or held or _to_import(library, ref) or _elsewhere(library, ref)
     if current is not None and len(ref.names) == 1:
@@ -59,7 +62,14 @@ def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> 
             if imported
             else f"an encapsulated class around it sees only what it imports: import ...{missing};"
         )
-    return Diagnostic("R001", f"there is no {what} {ref}", ref.span, hint)
+    return Diagnostic("R001", f"there is no {what} {ref}", ref.span, _for_other_version(hint, library, last, cls))
+
+
+def _for_other_version(hint: str, library: Library, package: ast.Class | None, user: ast.Class | None) -> str:
+    """A hint, and whether the library that `package` belongs to is another version than `user` was written for."""
+    top = top_package(library, package) if package is not None else None
+    said = other_version(top, user) if top is not None else ""
+    return " ".join(filter(None, (hint if not said or hint.endswith("?") else f"{hint};", said)))
 
 
 def unknown_element(cls: ast.Class, name: str, known: Iterable[str], span: Span) -> Diagnostic:
@@ -82,6 +92,7 @@ def unknown_function(ref: ast.Ref, scope: Scope) -> Diagnostic:
     hint = did_you_mean(ref.names[-1], _functions_beside(package, scope), "declare it, or import its package")
     if scope.instance is not None and ref.names[0] in scope.instance.elements:
         hint = f"{ref} is a variable: index it as {ref}[i], multiply as {ref}*(...)"
+    hint = _for_other_version(hint, library, package, scope.cls)
     return Diagnostic("R004", f"there is no function {ref}", ref.span, hint)
 
 
