@@ -182,18 +182,17 @@ static void begin_relations(rt_session *s) {
   m->failure = (mdl_failure){.equation = -1, .variable = -1};
 }
 
-/* The largest of the variables that v[index] is rounded with: those in its equation, in the last digits any state. */
+/* The largest of the variables in the equation of v[index], which it is rounded with. */
 static double size_beside(const rt_session *s, int index) {
   const mdl_descriptor *d = s->d;
   double size = 0;
-  for (int i = 0; i < d->n_x; i++)
-    size = rt_max(size, 1e-6 * fabs(s->data.x[i]));
   for (int k = 0; k < d->n_computed; k++) {
     const mdl_computed *c = &d->computed[k];
     if (c->storage != MDL_ALGEBRAIC || c->index != index) continue;
     for (int j = d->equation_first[c->equation]; j < d->equation_first[c->equation + 1]; j++) {
       const mdl_variable *v = &d->variables[d->equation_variables[j]];
       if (v->storage == MDL_ALGEBRAIC) size = rt_max(size, fabs(s->data.v[v->index]));
+      if (v->storage == MDL_STATE) size = rt_max(size, fabs(s->data.x[v->index]));
     }
   }
   return size;
